@@ -263,7 +263,9 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   begin.anchored = known.anchor.has_value();
   begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
                                            (one_body && std::isfinite(known.anchor->mass)));
-  if (begin.anchored && std::isfinite(known.anchor->friction)) begin.numbers.friction = kNaN;
+  const bool rubs_as_anchored = begin.anchored && std::isfinite(known.anchor->friction);
+  if (rubs_as_anchored) begin.numbers.friction = kNaN;
+  begin.friction_sought = !one_body && !nominal && !rubs_as_anchored;
   fit_to_structure(begin, choice.structure);
   begin.largest_input = largest_of(r.u);
   write_model(out, choice, begin, coordinates);

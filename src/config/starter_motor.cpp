@@ -130,8 +130,9 @@ void write_effect(YamlWriter& out, const char* name,
 void write_friction(YamlWriter& out, const Begin& begin, const std::string& unit) {
   const std::string of = unit + (begin.settled() ? "; " : " (over torque_constant); ") + begin.from;
   const double level = begin.numbers.friction;
-  if (begin.anchored)
-    out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}", unit + "; the fit finds its start");
+  if (begin.anchored || begin.friction_sought)
+    out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}",
+              unit + (begin.settled() ? "" : " (over torque_constant)") + "; the fit finds its start");
   else if (begin.asymmetry != 0.0)
     write_effect(out, "friction_asymmetry", {{"level_nm", level}, {"coulomb_ratio", begin.asymmetry}}, of);
   else
@@ -166,8 +167,8 @@ void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates)
   const char* const others = "`gapscope effects` lists what else a drive may have";
   const JointNumbers& n = begin.numbers;
   const bool clipped = n.input_limit < begin.largest_input;
-  if (!(n.friction > 0.0) && !(n.unbalance > 0.0) && n.load_constant_torque == 0.0 && !(n.lag > 0.0) &&
-      !clipped)
+  const bool rubs = n.friction > 0.0 || begin.friction_sought;
+  if (!rubs && !(n.unbalance > 0.0) && n.load_constant_torque == 0.0 && !(n.lag > 0.0) && !clipped)
     return out.entry("effects", "[]", others);
   out.open("effects");
   out.comment(others);
@@ -183,7 +184,7 @@ void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates)
   if (clipped)
     write_effect(out, "torque_saturation", {{"knee", n.input_limit}, {"sharpness", kHardLimit}},
                  "unit of u; range of the actuator, which the input exceeds");
-  if (n.friction > 0.0) write_friction(out, begin, unit);
+  if (rubs) write_friction(out, begin, unit);
   out.close();
 }
 

@@ -21,6 +21,7 @@ struct Begin {
   bool nominal = false;          ///< the numbers are a simulator's
   bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less
   bool gain_sought = false;      ///< of the controller, which takes the size of the torque constant
+  bool friction_sought = false;  ///< of the motor: two bodies of which no sheet tells it
   bool anchored = false;  ///< the torque constant is left to the fit, and all that was read in units of u
 
   bool settled() const { return input_is_torque || anchored || numbers.torque_constant > 0.0; }
@@ -38,8 +39,9 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 /// both directions.
 void fit_to_structure(Begin& begin, StarterModel structure);
 
-/// Friction, gravity, constant torques, filter and range of the actuator, where they were read: a diagnosis
-/// then begins with what is missing beside them. A range that the input does not exceed is none of them.
+/// Friction, gravity, constant torques, filter and range of the actuator, where they were read, and the
+/// friction that is sought: a diagnosis then begins with what is missing beside them. A range that the input
+/// does not exceed is none of them.
 void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 
 /// "{mass: 0.49, arm: 0.1}"; with an arm that hangs clearly elsewhere than at 0: "hangs_at: {value: 3.14,

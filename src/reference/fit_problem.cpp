@@ -132,6 +132,7 @@ Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const P
   p.key = std::string(effect.name) + "." + spec.key;
   p.unit = spec.unit;
   if (!p.estimated) return p;
+  p.amount = spec.absent == 0.0 && spec.low == 0.0;
   const bool known_period = p.given && id.index == effect.period_at() && effect.turns_with != Shaft::kNone;
   const Interval derived =
       known_period ? Interval{0.5 * p.start, 2.0 * p.start} : Interval{spec.low * scale, spec.high * scale};

@@ -54,6 +54,7 @@ struct Parameter {
   double typical = kNaN;  ///< size at which it would matter
   bool estimated = false;
   bool given = true;         ///< false: the start was derived from the recordings
+  bool amount = false;       ///< of an effect that is not there at 0
   double impossible = kNaN;  ///< a start that was given and is beyond what the drive can have
   std::optional<Prior> prior;
   Coordinate coordinate;

@@ -15,6 +15,10 @@ constexpr std::size_t kDrawsOfImpacts = 10;  ///< the same of a free load, each 
 constexpr double kLooked = 0.25;             ///< share of the recordings that is looked at
 constexpr double kNearFactor = 3.0;          ///< draws around a given value
 constexpr double kFarFactor = 8.0;           ///< draws around a derived one
+/// Draws of an effect of which nothing is known, from so much of what is usual on: a motor may have next to
+/// no dry friction. Draws about what is usual find 18 of 24 drives without any (`study_reference 590001 24
+/// unknown 5`), these 20, as many as a model without it does.
+constexpr double kNearlyAbsent = 0.01;
 
 /// A later variant must lower the cost to this share. A load that slides to rest within the gap leaves only
 /// the place where it stops, so a start in motion there is not to be preferred for a trifle.
@@ -33,6 +37,7 @@ Interval draw_range(const FitProblem& problem, const Parameter& p) {
     return {0.003 * problem.rough.travel, 0.8 * problem.rough.travel};
   if (p.id == drive_number(place::kMotorInertia) && !p.given && problem.inertia > 0.0)
     return {kMotorShare.low * problem.inertia, kMotorShare.high * problem.inertia};
+  if (p.amount && !p.given) return {kNearlyAbsent * p.start, p.start};
   const double factor = p.given ? kNearFactor : kFarFactor;
   return {p.start / factor, p.start * factor};
 }

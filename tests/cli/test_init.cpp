@@ -238,6 +238,7 @@ TEST(Init, AGapThatTheDetectorDoesNotSeeIsMarkedAsAGuess) {
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
   EXPECT_THAT(yaml, HasSubstr("  # GUESS: gap and free load"));
   EXPECT_THAT(yaml, HasSubstr("gap: {estimate: true}  # GUESS that there is one"));
+  EXPECT_THAT(yaml, HasSubstr("- motor_coulomb_friction: {level_nm: {estimate: true}}"));
   EXPECT_THAT(yaml, HasSubstr("gapscope init --model one_body"));
   EXPECT_EQ(place.run("init r.csv --model gap -o asked.yaml").status, 0);
   EXPECT_THAT(testing::text_of(place.folder() / "asked.yaml"), Not(HasSubstr("GUESS that there is one")));

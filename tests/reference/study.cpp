@@ -1,10 +1,15 @@
 // Random recordings for the reference: how often it finds the optimum from afar, how well, and whether its
 // intervals hold. Three rigs, sine and multisine, by the independent plant.
-// study_reference [first seed] [number of fits] [recover|noise|quantiser|unknown] [free 5|7] [verbose] [jobs]
+// study_reference [first seed] [fits] [recover|noise|quantiser|unknown|rubs|left_out|frictionless] [free 5|7]
+// [verbose] [jobs]
 //   recover    20, 14 and 12 bit, every second one with noise of 0.3–1.5 quanta
 //   noise      the same, all with noise
 //   quantiser  12 bit without noise
-//   unknown    as recover, every number sought without a start, as a configuration of `gapscope init` has it
+//   unknown    as recover, every number sought without a start, and with them a dry friction of the motor,
+//              which these drives do not have: a configuration of `gapscope init`
+//   rubs       the same model, of motors with a dry friction of 2–20 % of the torque
+//   left_out   these motors, by a model without it
+//   frictionless  the others, by that
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,6 +41,12 @@ constexpr int kOrder[] = {kGap,
                           kContactDamping,
                           kMotorInertia};
 constexpr int kAll = 8;
+constexpr const char* kFriction = "motor_coulomb_friction";
+
+/// Whether every number is sought without a start.
+bool begins_unknown(const std::string& list) {
+  return list == "unknown" || list == "rubs" || list == "left_out" || list == "frictionless";
+}
 
 struct Case {
   std::string rig, waveform;
@@ -43,6 +54,7 @@ struct Case {
   double noise = 0.0;  ///< [quanta]
   BlindRig run;
   std::array<double, kDriveParameterCount> truth{}, start{};
+  bool seeks_friction = false;  ///< of the motor
 };
 
 /// Three unlike drives: the paper's; a geared axis; a heavy load behind a small gap.
@@ -80,7 +92,7 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.waveform = sine ? "sine" : "multisine";
   c.bits = list == "quantiser" ? 12 : kBits[seed / 6 % 3];
   const double drawn = uniform(g, 0.3, 1.5);
-  const bool every_second = list == "recover" || list == "unknown";
+  const bool every_second = list == "recover" || begins_unknown(list);
   c.noise = list == "noise" || (every_second && seed / 18 % 2 == 1) ? drawn : 0.0;
   c.run.sensor = independent_plant::BlindSensor::with_bits(c.bits, c.noise);
   c.run.options.seed = seed;
@@ -93,7 +105,11 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.truth = c.start = numbers_of(c.run.drive);
   for (int i = 0; i < free; ++i)
     c.start[static_cast<std::size_t>(kOrder[i])] *=
-        list == "unknown" ? kNaN : log_uniform(g, 1.0 / kFarthest, kFarthest);
+        begins_unknown(list) ? kNaN : log_uniform(g, 1.0 / kFarthest, kFarthest);
+  if (list == "rubs" || list == "left_out")
+    c.run.drive.effects.motor.friction.level_nm =
+        c.run.excitation.amplitude * c.run.drive.torque_constant * uniform(g, 0.02, 0.2);
+  c.seeks_friction = list == "unknown" || list == "rubs";
   return c;
 }
 
@@ -107,6 +123,12 @@ struct FitOutcome {
 ReferenceModel model_of(const Case& c, const std::array<double, kDriveParameterCount>& start, int free) {
   ReferenceModel model = known_model(c.run.drive);
   for (int i = 0; i < free; ++i) estimate(model, kOrder[i], start[static_cast<std::size_t>(kOrder[i])]);
+  if (c.seeks_friction) {
+    const double level = c.run.drive.effects.motor.friction.level_nm;
+    const bool at_truth = std::isfinite(start[kGap]) && level > 0.0;
+    model.effects.push_back(
+        {find_effect(kFriction), {at_truth ? ParameterSetting::sought(level) : ParameterSetting::sought()}});
+  }
   return model;
 }
 
@@ -131,7 +153,7 @@ double relative_error(const FitOutcome& o, int number) {
 }
 
 struct Tally {
-  int cases = 0, at_optimum = 0;
+  int cases = 0, at_optimum = 0, believed = 0, believed_and_holds = 0;
   std::map<int, int> covered;
   std::map<int, std::vector<double>> errors;
   std::vector<double> seconds, simulations;
@@ -139,6 +161,9 @@ struct Tally {
   void add(const FitOutcome& o, int free) {
     ++cases;
     at_optimum += o.cost_ratio <= kSameCost;
+    const bool holds = contains(o.found, kDriveParameters[kGap].key, o.drawn.truth[kGap]);
+    believed += o.found.trust != FitTrust::kRejected;
+    believed_and_holds += o.found.trust != FitTrust::kRejected && holds;
     seconds.push_back(o.seconds);
     simulations.push_back(o.found.simulations);
     for (int i = 0; i < free; ++i) {
@@ -149,9 +174,11 @@ struct Tally {
   }
   void print(const std::string& name) const {
     const Interval limits = wilson(at_optimum, cases);
-    fmt::print("{}: at the optimum {}/{} [{:.1f}, {:.1f}] %, {:.2f} s and {:.0f} simulations in the median\n",
-               name, at_optimum, cases, 100 * limits.low, 100 * limits.high, median(seconds),
-               median(simulations));
+    fmt::print(
+        "{}: at the optimum {}/{} [{:.1f}, {:.1f}] %, {:.2f} s and {:.0f} simulations in the median; "
+        "not rejected {}, and the gap in its interval {}\n",
+        name, at_optimum, cases, 100 * limits.low, 100 * limits.high, median(seconds), median(simulations),
+        believed, believed_and_holds);
     for (const auto& [n, e] : errors) {
       const Interval v = wilson(covered.at(n), cases);
       fmt::print(
@@ -183,7 +210,7 @@ int main_study(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 36;
   const std::string list = argc > 3 ? argv[3] : "recover";
   const int asked = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, kAll - 1) : 5;
-  const int free = list == "unknown" ? kAll : asked;
+  const int free = begins_unknown(list) ? kAll : asked;
   const bool verbose = argc > 5 && std::atoi(argv[5]) > 0;
   const int jobs = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
   std::vector<FitOutcome> outcomes(static_cast<std::size_t>(count));
