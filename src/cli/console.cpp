@@ -7,14 +7,18 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <span>
 #include <string_view>
 
 #include "gapscope/base/decimals.h"
+#include "gapscope/base/now_and_then.h"
 #include "gapscope/base/shell_word.h"
 
 namespace gapscope::cli {
 namespace {
+
+constexpr std::chrono::seconds kSeldom{30};  ///< between two lines of progress in a log
 
 void line(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }
 
@@ -179,11 +183,14 @@ std::string stopwatch(double seconds) {
 
 Progress progress_on_terminal(bool quiet) {
   using Clock = std::chrono::steady_clock;
-  if (quiet || isatty(STDERR_FILENO) == 0) return [](const std::string&) {};
-  return [begin = Clock::now()](const std::string& what) {
+  if (quiet) return [](const std::string&) {};
+  const auto tell = [begin = Clock::now()](const std::string& what) {
     const std::chrono::duration<double> so_far = Clock::now() - begin;
     fmt::print(stderr, "{:>5}  {} ...\n", stopwatch(so_far.count()), what);
   };
+  if (isatty(STDERR_FILENO) != 0) return tell;
+  const auto seldom = std::make_shared<NowAndThen>(kSeldom, tell);
+  return [seldom](const std::string& what) { seldom->begins(what); };
 }
 
 void say(const char* what, const std::string& text) { fmt::print("{:<12}{}\n", what, text); }

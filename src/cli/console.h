@@ -11,7 +11,8 @@ namespace gapscope::cli {
 /// "1:05", "2:01:05": minutes or hours, minutes and seconds.
 std::string stopwatch(double seconds);
 
-/// Progress on standard error, and only on a terminal: the time since this call, and what is done.
+/// Progress on standard error: the time since this call, and what is done. On a terminal each step, elsewhere
+/// (a log, a script) the present one twice a minute.
 Progress progress_on_terminal(bool quiet);
 
 /// One line of an answer on standard output.

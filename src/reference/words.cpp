@@ -171,8 +171,8 @@ Remark as_well_without_gap(double ratio) {
 Remark gap_bears_little(double ratio, double floors) {
   return {
       "gap_bears_little",
-      "The model leaves {:.3g} encoder floors, and closing its gap makes that {:.3g} times as much: what is "
-      "missing may take the place of the gap.",
+      "The model misses the recording by {:.3g} times the encoder's noise, and with its gap held closed by "
+      "{:.3g} times that: what it lacks may take the place of the gap.",
       {floors, ratio}};
 }
 Remark gap_differs() {
