@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -41,11 +42,26 @@ void tell_after(suseconds_t wait) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
+constexpr double kOneRequest =
+    0.1;  ///< signals within it [s] are one: `timeout` tells the process and its group
+
+/// Whether this signal is what the last one was.
+bool is_told_twice() {
+  static double last = -1.0;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  const bool twice = last >= 0.0 && seconds - last < kOneRequest;
+  last = seconds;
+  return twice;
+}
+
 /// The first Ctrl-C asks, the second one does not wait for the answer. A diagnosis is asked to come to an end
 /// before it is asked to stop.
 extern "C" void on_interrupt(int signal) {
+  if (is_told_twice()) return;
   if (stop_requested()) _exit(kInterrupted);
-  if (signal == SIGINT && may_finish_first()) {
+  if (signal != SIGHUP && may_finish_first()) {
     request_finish();
     [[maybe_unused]] const auto told = write(STDERR_FILENO, kFinishing, sizeof kFinishing - 1);
     return;
