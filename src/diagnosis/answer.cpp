@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "diagnosis/card_words.h"
+#include "diagnosis/remedies.h"
 #include "gapscope/base/decimals.h"
 
 namespace gapscope {
 namespace {
 using internal::diagnosis::kNoBacklash;
+using internal::diagnosis::remedies;
 using internal::diagnosis::the_gap_is;
 
 /// The fit ends with the gap closed, and without a model none is seen either.
@@ -186,30 +187,9 @@ Answer by_model_alone(const Findings& f) {
   return a;
 }
 
-/// What to do about a reference that is not good, by the code of its reason.
-const std::map<std::string, std::string>& remedies() {
-  static const std::string diagnose =
-      "Run `gapscope diagnose CONFIG`: it finds what the model lacks, such as friction or a delay.";
-  static const std::string without =
-      "Fit a model without a gap (mass_ratio: 0), or record a motion that closes the contact on both sides.";
-  static const std::map<std::string, std::string> all = {
-      {"leaves_unexplained", diagnose},
-      {"above_floor", diagnose},
-      {"residual_patterned", diagnose},
-      {"parts_disagree", diagnose},
-      {"as_well_without_gap", without},
-      {"gap_bears_little", diagnose},
-      {"gap_differs", without},
-      {"odd_coupling", diagnose},
-      {"gap_at_bound", without},
-      {"gap_not_determined", "Record a motion that closes the contact on both sides, several times."},
-      {"not_settled", "Start the fit nearer to the drive (model: parameters), or raise fit: max_iterations."},
-      {"failed", "Start the fit nearer to the drive (model: parameters), and check the unit of u."}};
-  return all;
-}
-
-/// Where the detector reads a gap, no remedy is a model without one.
-bool reads_gap(const Findings& f) {
+/// Where the detector reads a gap, or the model is far from the drive, no remedy is a model without one.
+bool may_have_gap(const Findings& f) {
+  if (f.reference->innovation_rmse > FitOptions{}.rejected_ratio * f.reference->floor) return true;
   return f.model_free != nullptr && f.model_free->verdict == GapVerdict::kBacklash &&
          f.model_free->quantity == GapQuantity::kGap;
 }
@@ -269,7 +249,8 @@ std::vector<std::string> steps(const Findings& f) {
   if (f.reference != nullptr && !none_by_both(f)) {
     const auto found = remedies().find(f.reference->why.code());
     const bool denies = found != remedies().end() && found->second == remedies().at("gap_at_bound");
-    if (found != remedies().end()) add(denies && reads_gap(f) ? remedies().at("above_floor") : found->second);
+    if (found != remedies().end())
+      add(denies && may_have_gap(f) ? remedies().at("above_floor") : found->second);
   }
   if (f.model_free != nullptr) add(step_without_model(*f.model_free));
   return next;

@@ -78,12 +78,17 @@ std::string torque_floor(const CardFacts& f, const Card& card) {
   return "; the encoder's noise alone looks like " + size + ", below which no model can get";
 }
 
+/// Whether nothing is missing, and what is left is noise.
+bool is_noise(const Diagnosis& d) {
+  return d.verdict == DiagnosisVerdict::kNone && d.mismatch.before > 0.0 && d.mismatch.floor > 0.0;
+}
+
 /// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the
 /// drive's own repetition.
 std::string floor_words(const CardFacts& f, const Card& card) {
   if (const std::string words = torque_floor(f, card); !words.empty()) return words;
   const MismatchSize& m = f.diagnosis->mismatch;
-  if (f.diagnosis->verdict != DiagnosisVerdict::kNone || !(m.before > 0.0 && m.floor > 0.0)) return "";
+  if (!is_noise(*f.diagnosis)) return "";
   const SharedUnit motion(m.floor, f.coordinates.position_unit());
   return fmt::format(
       "; that is noise: the simulated motion is {} rms off, {} {} (up to {} times as much counts "
@@ -157,7 +162,8 @@ std::string mismatch_words(const CardFacts& f, const Card& card) {
 }
 
 std::string mismatch_size(const CardFacts& f, const Card& card) {
-  return f.diagnosis == nullptr ? fit_of_motion(f) : size_words(f, card, "");
+  if (f.diagnosis == nullptr) return fit_of_motion(f);
+  return size_words(f, card, is_noise(*f.diagnosis) ? ", which is noise" : "");
 }
 
 }  // namespace gapscope::internal::diagnosis

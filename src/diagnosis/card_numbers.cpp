@@ -239,7 +239,7 @@ std::string other_numbers_help(const CardFacts& f) {
     return "Nothing needed: the model is as good as the recording.";
   if (numbers.empty())
     return "Nothing need be added to the model, which is as good as the recording." + simulator_helps(f);
-  return "Nothing need be added; other numbers than the configuration starts at: " + numbers +
+  return "Other numbers than the configuration starts at, and nothing more: " + numbers +
          "; `fitted.yaml` has them and is as good as the recording." + scale_words(*f.diagnosis) +
          simulator_helps(f);
 }

@@ -115,7 +115,7 @@ TEST(Answer, WhereAGapIsReadARejectedModelLeadsToTheDiagnosisAndNotToOneWithoutA
   }
   FitSummary rejected = fitted(FitTrust::kRejected, 0.0249, 5e-4);
   rejected.why = Remark("as_well_without_gap", "It says so.");
-  EXPECT_THAT(of(&open, &rejected).next.front(), HasSubstr("mass_ratio: 0"));
+  EXPECT_THAT(of(&open, &rejected).next.front(), HasSubstr("--model one_body"));
 }
 
 TEST(Answer, OfAFitThatClosesTheGapAgreesWithADenial) {

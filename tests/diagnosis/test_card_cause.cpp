@@ -85,7 +85,7 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
       "are fitted now.");
   EXPECT_EQ(
       card.helps,
-      "Nothing need be added; other numbers than the configuration starts at: motor damping 0.1 → "
+      "Other numbers than the configuration starts at, and nothing more: motor damping 0.1 → "
       "0.04000 N·m s/rad (95 %: 0.03970 to 0.04030), motor inertia 0.00532 → 0.007810 kg m² (95 %: 0.007790 "
       "to 0.007830) and load unbalance amplitude 0.353 → 0.3770 N·m (95 %: 0.3758 to 0.3782); `fitted.yaml` "
       "has "
@@ -96,7 +96,7 @@ TEST(CardCause, WhereNoEffectIsMissingTellsNumbersOfTheConfigurationThatAreNotTh
   EXPECT_THAT(card_of(d).helps,
               HasSubstr("0.007830), and smaller changes in load unbalance amplitude; `fitted.yaml`"));
   d.refitted[3].fitted = 0.44;
-  EXPECT_THAT(card_of(d).helps, HasSubstr("starts at: load unbalance amplitude 0.353 → 0.4400 N·m (95 %"))
+  EXPECT_THAT(card_of(d).helps, HasSubstr("nothing more: load unbalance amplitude 0.353 → 0.4400 N·m (95 %"))
       << "a torque of an effect that changes by more than a tenth";
   d.refitted[3].fitted = 0.377,
   d.refitted.push_back({"contact_stiffness", "N m/rad", 100.0, 120.0, {119.0, 121.0}});
