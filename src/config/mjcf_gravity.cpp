@@ -27,6 +27,12 @@ Vector3d gravity_in(const Mjcf& m) {
   return g;
 }
 
+std::string turns_above(const XMLElement& body) {
+  return body_name(body) +
+         " above it turns; where that stands still in the recording, add to effects: - load_unbalance: "
+         "{amplitude_nm: {estimate: true}, phase_rad: {estimate: true}}";
+}
+
 /// The joint's body against the world, or why its gravity is not known: a joint above turns it, and not about
 /// the vertical.
 struct Attitude {
@@ -46,13 +52,13 @@ struct Attitude {
 
  private:
   void look_at_joints(const Mjcf& m, const XMLElement& body, const Vector3d& g) {
-    if (body.FirstChildElement("freejoint") != nullptr) unknown = body_name(body) + " above it turns";
+    if (body.FirstChildElement("freejoint") != nullptr) unknown = turns_above(body);
     for (const XMLElement* j = body.FirstChildElement("joint"); j != nullptr;
          j = j->NextSiblingElement("joint")) {
       const std::string type = m.word(*j, "type", "hinge");
       const Vector3d axis = turn * three_of(m, *j, "axis", Vector3d::UnitZ());
       const bool upright = type == "hinge" && axis.cross(g).norm() <= 1e-9 * axis.norm() * g.norm();
-      if (type != "slide" && !upright) unknown = body_name(body) + " above it turns";
+      if (type != "slide" && !upright) unknown = turns_above(body);
     }
   }
 };

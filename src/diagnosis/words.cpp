@@ -192,7 +192,7 @@ std::string period_words(const AddedEffect& added, Coordinates coordinates) {
   for (const NamedValue& p : added.parameters) {
     if (p.key != "periods_per_turn" || !(p.value > 0.0)) continue;
     if (const std::string cycles = fmt::format("{:.4g}", p.value); coordinates.rotational())
-      return cycles == "1" ? " once per motor turn" : " at " + cycles + " cycles per motor turn";
+      return cycles == "1" ? " once per turn of x1" : " at " + cycles + " cycles per turn of x1";
     const double period = 2.0 * kPi / p.value;
     return " every " + SharedUnit(period, coordinates.position_unit())(period);
   }

@@ -146,7 +146,7 @@ TEST(Configurations, ADriveWithDetentsIsSaidToLackThemAndNothingElse) {
                   "\ncause       Established: cogging torque.\nhelps       Cogging torque brings the missing "
                   "torque down from 5.47 to 0.63"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr(
-                               "effect      cogging_torque  at 24 cycles per motor turn; amplitude 8.000"));
+                               "effect      cogging_torque  at 24 cycles per turn of x1; amplitude 8.000"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("eriodic in the motor angle with 24 cycles per turn"));
   EXPECT_TRUE(std::filesystem::exists(place.folder() / "report/diagnosis.png"));
 }

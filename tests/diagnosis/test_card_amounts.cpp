@@ -163,8 +163,8 @@ TEST(Card, TellsLinesOfOneEffectApartByTheirPeriods) {
   f.coordinates = Coordinates::kRotation;
   d.added[0].parameters[1].value = 24.0, d.added[1].parameters[1].value = 7.25;
   EXPECT_EQ(card_of(f).cause,
-            "Established: cogging torque at 24 cycles per motor turn and cogging torque at 7.25 "
-            "cycles per motor turn.");
+            "Established: cogging torque at 24 cycles per turn of x1 and cogging torque at 7.25 "
+            "cycles per turn of x1.");
 }
 
 TEST(CardNext, NamesAFormatThatHasAllThatWasAddedOrSaysThatNoneHas) {

@@ -1,15 +1,16 @@
 // Random recordings for the reference: how often it finds the optimum from afar, how well, and whether its
 // intervals hold. Three rigs, sine and multisine, by the independent plant.
-// study_reference [first seed] [fits] [recover|noise|quantiser|unknown|rubs|left_out|frictionless] [free 5|7]
-// [verbose] [jobs]
+// study_reference [first seed] [fits] [list] [free 5|7] [verbose] [jobs]
 //   recover    20, 14 and 12 bit, every second one with noise of 0.3–1.5 quanta
 //   noise      the same, all with noise
 //   quantiser  12 bit without noise
-//   unknown    as recover, every number sought without a start, and with them a dry friction of the motor,
-//              which these drives do not have: a configuration of `gapscope init`
-//   rubs       the same model, of motors with a dry friction of 2–20 % of the torque
-//   left_out   these motors, by a model without it
-//   frictionless  the others, by that
+// and as recover, with every number sought without a start:
+//   unknown       with them a dry friction of the motor, which these drives do not have: a configuration of
+//                 `gapscope init`
+//   rubs          the same, of motors with a dry friction of 2–20 % of the torque
+//   coasts        these, and friction and damping of the load from a hundredth on
+//   left_out      the motors of rubs by a model without their friction
+//   frictionless  the drives of unknown by that model
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -43,9 +45,27 @@ constexpr int kOrder[] = {kGap,
 constexpr int kAll = 8;
 constexpr const char* kFriction = "motor_coulomb_friction";
 
-/// Whether every number is sought without a start.
-bool begins_unknown(const std::string& list) {
-  return list == "unknown" || list == "rubs" || list == "left_out" || list == "frictionless";
+/// What is drawn, and what is sought of it.
+struct List {
+  const char* name;
+  bool unknown = false;         ///< every number is sought without a start
+  bool rubs = false;            ///< the motor has a dry friction
+  bool seeks_friction = false;  ///< and the model
+  bool coasts = false;          ///< friction and damping of the load are small
+};
+constexpr List kLists[] = {{"recover"},
+                           {"noise"},
+                           {"quantiser"},
+                           {"unknown", true, false, true},
+                           {"rubs", true, true, true},
+                           {"coasts", true, true, true, true},
+                           {"left_out", true, true},
+                           {"frictionless", true}};
+
+const List& list_called(const std::string& name) {
+  for (const List& list : kLists)
+    if (name == list.name) return list;
+  throw std::runtime_error("there is no list " + name);
 }
 
 struct Case {
@@ -83,6 +103,7 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   constexpr const char* kRigs[] = {"paper", "geared", "heavy"};
   constexpr double kTorque[] = {0.1, 0.1, 0.25};  ///< typical amplitude [N m]
   constexpr int kBits[] = {20, 14, 12};
+  const List& asked = list_called(list);
   auto g = random_stream(seed, "reference study");
   const int rig = static_cast<int>(seed % 3);
   Case c;
@@ -92,7 +113,7 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.waveform = sine ? "sine" : "multisine";
   c.bits = list == "quantiser" ? 12 : kBits[seed / 6 % 3];
   const double drawn = uniform(g, 0.3, 1.5);
-  const bool every_second = list == "recover" || begins_unknown(list);
+  const bool every_second = list == "recover" || asked.unknown;
   c.noise = list == "noise" || (every_second && seed / 18 % 2 == 1) ? drawn : 0.0;
   c.run.sensor = independent_plant::BlindSensor::with_bits(c.bits, c.noise);
   c.run.options.seed = seed;
@@ -102,14 +123,17 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   c.run.excitation.amplitude =
       kTorque[rig] / c.run.drive.torque_constant * (sine ? 1.0 : 1.5) * uniform(g, 0.8, 1.4);
   c.run.drive.x2 = 0.49 * c.run.drive.gap * uniform(g, -1.0, 1.0);
+  if (asked.coasts)
+    c.run.drive.load_coulomb *= log_uniform(g, 0.01, 1.0),
+        c.run.drive.load_damping *= log_uniform(g, 0.01, 1.0);
   c.truth = c.start = numbers_of(c.run.drive);
   for (int i = 0; i < free; ++i)
     c.start[static_cast<std::size_t>(kOrder[i])] *=
-        begins_unknown(list) ? kNaN : log_uniform(g, 1.0 / kFarthest, kFarthest);
-  if (list == "rubs" || list == "left_out")
+        asked.unknown ? kNaN : log_uniform(g, 1.0 / kFarthest, kFarthest);
+  if (asked.rubs)
     c.run.drive.effects.motor.friction.level_nm =
         c.run.excitation.amplitude * c.run.drive.torque_constant * uniform(g, 0.02, 0.2);
-  c.seeks_friction = list == "unknown" || list == "rubs";
+  c.seeks_friction = asked.seeks_friction;
   return c;
 }
 
@@ -210,7 +234,7 @@ int main_study(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 36;
   const std::string list = argc > 3 ? argv[3] : "recover";
   const int asked = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, kAll - 1) : 5;
-  const int free = begins_unknown(list) ? kAll : asked;
+  const int free = list_called(list).unknown ? kAll : asked;
   const bool verbose = argc > 5 && std::atoi(argv[5]) > 0;
   const int jobs = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
   std::vector<FitOutcome> outcomes(static_cast<std::size_t>(count));
