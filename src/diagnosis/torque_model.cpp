@@ -174,8 +174,9 @@ ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced, co
   const auto error = [&](const ScoredModel& m) {
     return study.repeats_badly() ? m.median_innovation : m.median_free;
   };
-  const bool alone_nearer = !(error(as_is) < error(nominal)) && error(refitted) < error(nominal);
-  const bool takes = kept && (alone_nearer || (locked && refitted.score < as_is.score));
+  const double least =
+      error(as_is) < error(nominal) ? study.effort.far_better * error(as_is) : error(nominal);
+  const bool takes = kept && (error(refitted) < least || (locked && refitted.score < as_is.score));
   return takes || !std::isfinite(as_is.score) ? refitted : as_is;
 }
 

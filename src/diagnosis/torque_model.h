@@ -34,8 +34,9 @@ bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced);
 /// refit. Where torque is missing that nothing explains, the innovations of an observer favour a heavy drive,
 /// which hides it; the contact of a locked output, which the balance has in no parameter of the model, is
 /// refitted if that leaves less and keeps what was added. So is a drive that the balance's numbers bring no
-/// nearer to the motion than `nominal` is, and its refit does: of a torque constant that only an anchor
-/// bounds, for one, the balance keeps what the nominal model had, without what was added.
+/// nearer to the motion than `nominal` is, and its refit does (of a torque constant that only an anchor
+/// bounds, for one, the balance keeps what the nominal model had, without what was added), and one that its
+/// refit brings far nearer than they do.
 ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced, const ScoredModel& nominal);
 
 }  // namespace gapscope::internal::diagnosis
