@@ -14,15 +14,13 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kNearlyWhole = 90.0;  ///< fit that sounds like a model to be believed [%]
-
 /// What is left of the motion that the fit follows, where nobody has diagnosed it.
 std::string fit_of_motion(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent))
     return "Not measured, as no model was fitted.";
   const double percent = f.reference->fit_percent;
   const char* const rejected =
-      percent > kNearlyWhole ? "; the model is rejected all the same" : "; the model is rejected";
+      percent > 0.0 ? "; the model is rejected all the same" : "; the model is rejected";
   return fmt::format("A free run of the fitted model {} {:.4g} % (100 % is exact){}.",
                      percent > 0.0 ? "fits the motion to" : "departs from the motion: fit", percent,
                      f.reference->rejected() ? rejected : "");
