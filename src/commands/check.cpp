@@ -13,10 +13,13 @@
 namespace gapscope {
 namespace {
 
-/// With the unit that is declared for u; without one that is said once, where the input is told.
-void tell_unit(Finding& f, const InputFacts& input) {
+/// With the unit that is declared for u; without one that is said once, where the input is told. A share has
+/// none.
+void tell_unit(Finding& f, const Configuration& c) {
+  const InputFacts input = c.input_facts();
+  const bool share = c.recording->units.input == "%";
   if (f.rule == kInputRule && input.unit.empty())
-    f.found = replaced(f.found, " units of u", " (no unit declared: --input-unit)");
+    f.found = replaced(f.found, " units of u", share ? " (1 is 100 %)" : " (no unit declared: --input-unit)");
   f.found = with_input_unit(f.found, input);
 }
 
@@ -29,7 +32,7 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
       inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   if (!told_as.empty()) checked.inspection.file = told_as;
   judge_for_unit(c.input_facts().unit, checked.inspection);
-  for (Finding& f : checked.inspection.findings) tell_unit(f, c.input_facts());
+  for (Finding& f : checked.inspection.findings) tell_unit(f, c);
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
   judge_for(purpose, checked.inspection);
   checked.json = inspection_json(checked.inspection, resolved_reading(c));

@@ -240,6 +240,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (one_body && choice.seen) judge_for(Purpose::kDiagnosis, seen);  // nobody asks the detector
   Starter starter;
   starter.model = choice.why;
+  if (!choice.seen && choice.structure != StarterModel::kOneBody)
+    starter.model += "; where there is none, --model one_body is the quicker model";
   if (!config.held_out.empty()) starter.order = order_told(config, known.options, coordinates);
   for (const auto* files : {&config.files, &config.held_out})
     for (const RecordedFile& file : *files) warn_of_notes(config, file, coordinates, starter);
