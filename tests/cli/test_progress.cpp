@@ -100,6 +100,19 @@ TEST(Progress, CtrlCThatIsNotAnsweredYetIsAcknowledgedAndASecondOneEndsAtOnce) {
   EXPECT_EQ(testing::text_of(place.folder() / "status.txt"), "130\n");
 }
 
+/// `timeout` signals the process and its group: the same request, twice at once.
+TEST(Progress, ADiagnosisThatIsToldToEndTwiceAtOnceLeavesItsReport) {
+  Workplace place;
+  place.file("c.yaml",
+             std::regex_replace(kShortSimulation, std::regex("duration: 2"), "duration: 20") +
+                 "  model: {effects: [{motor_coulomb_friction: {level_nm: 0.02}}]}\nmodel: " + kPaperModel);
+  const auto told = place.run(
+      "diagnose c.yaml -j 1 -o r" + testing::excluding_all_but({"motor_coulomb_friction", "quadratic_drag"}),
+      "timeout --preserve-status 1");
+  EXPECT_EQ(told.status, 130) << told.err;
+  EXPECT_TRUE(place.content().count("r/diagnosis.json")) << told.err;
+}
+
 TEST(Progress, OfACampaignIsTheRunOfHowManyAndTheTimeSoFar) {
   Workplace place;
   place.file("c.yaml", "name: small\naxes: {simulation.seed: [1, 2, 3]}\nbase:\n  " +
