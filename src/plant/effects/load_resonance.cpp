@@ -27,17 +27,9 @@ struct LoadResonance {
       {0.2, 127.0, 0.05}, {0.2, 165.0, 0.05}, {0.2, 215.0, 0.05}, {0.2, 280.0, 0.05}, {0.2, 363.0, 0.05},
       {0.2, 472.0, 0.05}, {0.2, 614.0, 0.05}, {0.2, 798.0, 0.05}, {0.2, 1038.0, 0.05}};
 
-  static constexpr int kOrder = 10;       ///< most of the series: its rest is kRest at w0 h = 1/4
-  static constexpr double kRest = 3e-13;  ///< of the speed, that may be left out
+  static constexpr int kOrder = 10;  ///< of the series: its rest is 3e-13 of the speed at w0 h = 1/4
   static constexpr double kOver[kOrder + 1] = {0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
                                                1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10};
-
-  /// Of the series at so much of a turn, damping and all; 3 at least, for the cubic.
-  static int order_for(double angle) {
-    int order = 3;
-    for (double rest = angle * angle * angle / 6.0; order < kOrder && rest > kRest;) rest *= angle / ++order;
-    return order;
-  }
 
   template <class T>
   struct Body {
@@ -62,8 +54,7 @@ struct LoadResonance {
     const T base[] = {3.0 * way - (2.0 * from.w + to.w) * h, (from.w + to.w) * h - 2.0 * way};
     const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle, drag = 2.0 * p[2] * angle;
     T place = z + slope, speed = slope;
-    const int order = order_for(value_of(angle) * (1.0 + 2.0 * value_of(p[2])));
-    for (int n = 0; n + 2 <= order; ++n) {
+    for (int n = 0; n + 2 <= kOrder; ++n) {
       T next = (pull * z * kOver[n + 1] + drag * slope) * -kOver[n + 2];
       if (n < 2) next -= base[n];
       place += next, speed += (n + 2.0) * next;
