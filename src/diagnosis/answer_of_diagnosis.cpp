@@ -95,8 +95,10 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
 }
 
 void doubt_unit(Answer& a, const std::string& why, const std::string& remedy) {
-  if (a.sentence.ends_with(".")) a.sentence.pop_back();
-  if (a.trust != AnswerTrust::kNone) a.sentence += ", if x1 has the unit that was declared (" + why + ")";
+  if (a.trust != AnswerTrust::kNone) {
+    if (a.sentence.ends_with(".")) a.sentence.pop_back();
+    a.sentence += ", if x1 has the unit that was declared (" + why + ")";
+  }
   if (a.trust == AnswerTrust::kGood) a.trust = AnswerTrust::kLimited;
   a.next.insert(a.next.begin(), "See that the unit of x1 is right: " + remedy + ".");
   a.next.resize(std::min<std::size_t>(a.next.size(), 3));
