@@ -1,29 +1,19 @@
 #include "report/canvas.h"
 
-#include <sys/mman.h>
-
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <opencv2/imgproc.hpp>
+
+#include "report/paper.h"
 
 namespace gapscope::internal::report {
 namespace {
 
-constexpr double kFine = 2.0;  // drawn at so many times the size of the image, averaged down
-constexpr int kShift = 4;      // sixteenths of a fine pixel
-constexpr double kFar = 1e5;   // beyond any paper; keeps sub-pixel coordinates within an int
-
-/// Memory in pages as large as the system has them: tens of megabytes in small ones take longer to come by,
-/// page by page, than to draw on.
-Memory in_large_pages(std::size_t bytes) {
-  constexpr std::size_t kPage = std::size_t{1} << 21;
-  const std::size_t size = (bytes + kPage - 1) / kPage * kPage;
-  Memory memory(static_cast<std::uint8_t*>(std::aligned_alloc(kPage, size)), &std::free);
-  if (!memory) throw std::bad_alloc();
-  madvise(memory.get(), size, MADV_HUGEPAGE);  // a wish: without it everything is as it was
-  return memory;
-}
+constexpr double kFine = 2.0;    // drawn at so many times the size of the image, averaged down
+constexpr int kShift = 4;        // sixteenths of a fine pixel
+constexpr double kUnseen = 4.0;  // a corner so far beside a straight line [sixteenths of a fine pixel]
+constexpr std::size_t kMostUnseen = 32;  // in a row: work stays in proportion to the corners
+constexpr double kFar = 1e5;             // beyond any paper; keeps sub-pixel coordinates within an int
 
 cv::Point sub_pixel(Point p, double fine) {
   const auto fixed = [=](double v) { return cvRound(std::clamp(v, -kFar, kFar) * fine * (1 << kShift)); };
@@ -61,12 +51,37 @@ std::vector<Polyline> dashes_of(const Polyline& line, const std::vector<double>&
   return dashes;
 }
 
+/// Of a point from the segment a-b, not from its line: a spike that returns within one column of pixels is
+/// far.
+double distance(cv::Point2d p, cv::Point2d a, cv::Point2d b) {
+  const cv::Point2d along = b - a;
+  const double length2 = along.dot(along);
+  const double part = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return cv::norm(p - a - part * along);
+}
+
+/// Of dense samples most corners are: each costs as much as a long stroke.
+std::vector<cv::Point> without_unseen_corners(const std::vector<cv::Point>& line) {
+  std::vector<cv::Point> seen;
+  std::size_t last = 0;  // of those that are seen
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto unseen = [&](const cv::Point& p) { return distance(p, line[last], line[i + 1]) <= kUnseen; };
+    const auto first = line.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+    const auto end = line.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    if (i > 0 && i + 1 < line.size() && i - last <= kMostUnseen && std::all_of(first, end, unseen)) continue;
+    seen.push_back(line[i]);
+    last = i;
+  }
+  return seen;
+}
+
 void stroke(cv::Mat& paper, const Polyline& points, const LineStyle& style, double fine) {
   if (points.empty()) return;
   for (const Polyline& dash : dashes_of(points, style.dashes)) {
     std::vector<cv::Point> fixed;
     for (const Point& p : dash) fixed.push_back(sub_pixel(p, fine));
-    cv::polylines(paper, fixed, false, bgr(style.colour), fine_width(style.width, fine), cv::LINE_AA, kShift);
+    cv::polylines(paper, without_unseen_corners(fixed), false, bgr(style.colour),
+                  fine_width(style.width, fine), cv::LINE_AA, kShift);
   }
 }
 
@@ -91,10 +106,8 @@ std::array<Polyline, 2> cross(Point at, double size) {
 
 PixelCanvas::PixelCanvas(double width, double height, const Typesetter& typesetter, double scale)
     : fine_(kFine * scale), typesetter_(typesetter) {
-  const int rows = static_cast<int>(kFine) * cvRound(height * scale);
-  const int columns = static_cast<int>(kFine) * cvRound(width * scale);
-  memory_ = in_large_pages(3 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  paper_ = cv::Mat(rows, columns, CV_8UC3, memory_.get());
+  paper_ = sheet(static_cast<int>(kFine) * cvRound(height * scale),
+                 static_cast<int>(kFine) * cvRound(width * scale));
   paper_.setTo(cv::Scalar::all(255));
 }
 
@@ -164,8 +177,8 @@ void PixelCanvas::text(Point at, const std::string& markup, const TextStyle& sty
 }
 
 cv::Mat PixelCanvas::image() const {
-  cv::Mat small;
-  cv::resize(paper_, small, {}, 1.0 / kFine, 1.0 / kFine, cv::INTER_AREA);
+  cv::Mat small = sheet(paper_.rows / static_cast<int>(kFine), paper_.cols / static_cast<int>(kFine));
+  cv::resize(paper_, small, small.size(), 0.0, 0.0, cv::INTER_AREA);
   return small;
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -32,8 +29,6 @@ struct DrawnText {
   Box box;
   std::string markup;
 };
-
-using Memory = std::unique_ptr<std::uint8_t[], void (*)(void*)>;
 
 /// White paper, in pixels of the finished image at scale 1, y downwards.
 class Canvas {
@@ -67,8 +62,7 @@ class PixelCanvas : public Canvas {
 
  private:
   double fine_;  ///< of the paper, in its pixels
-  Memory memory_{nullptr, &std::free};
-  cv::Mat paper_;  ///< on that memory
+  cv::Mat paper_;
   const Typesetter& typesetter_;
   std::vector<DrawnText> texts_;
 };

@@ -1,7 +1,10 @@
 #include "report/report_files.h"
 
+#include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <new>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <ostream>
 #include <stdexcept>
@@ -31,6 +34,21 @@ void put_or_remove(const fs::path& path, const std::string& bytes) {
     write_bytes(path, bytes);
 }
 
+/// So no core is left with the largest figure at the end, and none needs more paper than the one before it.
+std::vector<std::size_t> largest_first(const std::vector<FigureData>& figures) {
+  std::vector<double> area;
+  for (const FigureData& f : figures) {
+    const auto add = [](double height, const Panel& panel) { return height + panel.height; };
+    area.push_back(f.scale * f.scale * f.width / f.columns *
+                   std::accumulate(f.panels.begin(), f.panels.end(), 0.0, add));
+  }
+  std::vector<std::size_t> order(figures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return area[a] > area[b]; });
+  return order;
+}
+
 }  // namespace
 
 /// The library below has its own words for a machine that is too small.
@@ -53,7 +71,10 @@ std::vector<Picture> write_report_files(const std::string& folder, const std::ve
                                         const std::string& text, const FigureFormats& formats) {
   std::vector<Picture> pictures(figures.size());
   std::vector<std::string> drawings(figures.size());
-  parallel_for(figures.size(), 0, [&](std::size_t i) {
+  const std::vector<std::size_t> order = largest_first(figures);
+  std::atomic<std::size_t> next{0};
+  parallel_for(figures.size(), 0, [&](std::size_t) {
+    const std::size_t i = order[next++];
     if (!figures[i].missing.empty()) return;
     pictures[i] = {figures[i].file, formats.small ? small_picture(figures[i]) : picture_bytes(figures[i]),
                    figures[i].width / kColumnPixels};

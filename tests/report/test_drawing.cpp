@@ -55,6 +55,25 @@ TEST(Drawing, IsTheSameEveryTime) {
   EXPECT_EQ(cv::norm(draw(figure), draw(figure), cv::NORM_INF), 0.0);
 }
 
+/// Corners beside a straight line are left out; of a frame that ends where it began, and of a spike that
+/// returns within its column, the line from end to end says nothing.
+TEST(Drawing, LeavesOutNoSideOfAFrameAndNoSpikeOfAColumn) {
+  const Typesetter typesetter;
+  PixelCanvas canvas(200.0, 100.0, typesetter);
+  canvas.line({{10.0, 10.0}, {90.0, 10.0}, {90.0, 90.0}, {10.0, 90.0}, {10.0, 10.0}}, {kInk, 2.0, {}});
+  Polyline trace;
+  for (int i = 0; i < 9000; ++i) trace.push_back({100.0 + 0.01 * i, i == 5000 ? 20.0 : 80.0});
+  canvas.line(trace, {kInk, 2.0, {}});
+  const cv::Mat image = canvas.image();
+  const auto dark = [&](int x, int y) { return image.at<cv::Vec3b>(y, x)[0] < 128; };
+  for (int at = 15; at < 90; at += 10) {
+    EXPECT_TRUE(dark(at, 10) && dark(at, 90) && dark(10, at) && dark(90, at)) << at;
+    EXPECT_TRUE(dark(95 + at, 80)) << at;
+  }
+  EXPECT_TRUE(dark(150, 30));
+  EXPECT_FALSE(dark(140, 30) || dark(50, 50));
+}
+
 /// As of a torque whose unit rests on a guess, in panels that stand close above each other.
 TEST(Drawing, BreaksALabelOrATitleThatIsTooLong) {
   FigureData figure;
