@@ -153,7 +153,8 @@ void FitOptions::fields(FieldVisitor& v) {
   v.field({"compare_parts", "", "where the model is not the drive: compare its values between parts"},
           compare_parts);
   v.field({"profile", "", "intervals from the profile likelihood as well"}, profile);
-  v.field({"gap_seed", "rad", "start of the gap from another estimate", 0}, gap_seed);
+  v.field({"gap_seed", "rad", "the gap by another estimate, about which every second start is drawn", 0},
+          gap_seed);
 }
 
 }  // namespace gapscope

@@ -153,9 +153,12 @@ Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const P
   return p;
 }
 
+/// A gap that another estimate has read, where the model names none: the search begins there, and still looks
+/// everywhere.
 ReferenceModel with_gap_seed(ReferenceModel model, const FitOptions& options) {
-  if (options.gap_seed && *options.gap_seed > 0.0 && model.parameters[kGap].estimate)
-    model.parameters[kGap].value = *options.gap_seed;
+  ParameterSetting& gap = model.parameters[kGap];
+  if (options.gap_seed && *options.gap_seed > 0.0 && gap.estimate && std::isnan(gap.value))
+    gap.value = *options.gap_seed;
   return model;
 }
 
@@ -253,6 +256,8 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   if (problem.structure.has_load && problem.structure.load == LoadKind::kFree && problem.rough.inertia > 0.0)
     problem.inertia = sizes[kTorqueConstant] * problem.rough.inertia;
   add_drive(problem, model, sizes);
+  for (Parameter& p : problem.parameters)
+    if (p.id == drive_number(kGap)) p.given = std::isfinite(given.parameters[kGap].value);
   const ScaleContext context = scales(problem, sizes);
   if (model.controller) add_controller(problem, *model.controller);
   add_effects(problem, model, context);

@@ -37,7 +37,11 @@ constexpr double kInside = 0.02;
 constexpr Interval kMotorShare = {0.1, 0.95};
 constexpr double kSumFactor = 1.4;
 
-Interval draw_range(const FitProblem& problem, const Parameter& p) {
+/// @param seeded  about another estimate of the gap, where there is one
+Interval draw_range(const FitProblem& problem, const Parameter& p, bool seeded) {
+  const double read = seeded ? problem.options.gap_seed.value_or(0.0) : 0.0;
+  if (p.id == drive_number(place::kGap) && !p.given && read > 0.0)
+    return {read / kNearFactor, read * kNearFactor};
   if (p.id == drive_number(place::kGap) && !p.given)
     return {0.003 * problem.rough.travel, 0.8 * problem.rough.travel};
   if (p.id == drive_number(place::kMotorInertia) && !p.given && problem.inertia > 0.0)
@@ -49,13 +53,13 @@ Interval draw_range(const FitProblem& problem, const Parameter& p) {
 
 /// A derived stiffness goes with the gap that was drawn: the wind-up of a contact is a part of its gap, of
 /// whatever travel.
-std::vector<double> drawn(const FitProblem& problem, std::mt19937_64& generator) {
+std::vector<double> drawn(const FitProblem& problem, bool seeded, std::mt19937_64& generator) {
   std::vector<double> q;
   double narrower = 1.0;  // the drawn gap than the derived one, which goes before
   double motor = problem.inertia;
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
     const Parameter& p = problem.free_parameter(i);
-    const Interval range = draw_range(problem, p);
+    const Interval range = draw_range(problem, p, seeded);
     double value = range.low > 0.0 ? log_uniform(generator, range.low, range.high) : p.start;
     if (p.id == drive_number(place::kMotorInertia)) motor = value;
     if (p.id == drive_number(place::kMassRatio) && !p.given && problem.inertia > 0.0)
@@ -159,7 +163,7 @@ StartPoints drawn_points(const FitProblem& problem, std::size_t count) {
   const bool impacts = problem.inertia > 0.0 && !values_are_given(problem);
   const std::size_t looked = impacts ? kDrawsOfImpacts : kDrawsPerPoint;
   for (std::size_t i = 0; i < looked * count; ++i) {
-    Solution p{start_point(problem, drawn(problem, generator))};
+    Solution p{start_point(problem, drawn(problem, i % 2 == 0, generator))};
     const Placement placed = choose_variants(part.problem(), p, hz);
     p.starts = placed.starts;
     const Square square = mean_square_with_priors(part.problem(), p, hz);

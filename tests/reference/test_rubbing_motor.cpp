@@ -38,5 +38,21 @@ TEST(RubbingMotor, ItsFrictionAndItsGapAreFoundWithoutAStart) {
   EXPECT_TRUE(contains(found, "motor_coulomb_friction.level_nm", 0.01));
 }
 
+/// Stiff teeth behind a small gap, in a motion of many times its width.
+TEST(RubbingMotor, AStiffContactIsFoundFromTheGapOfAnotherEstimate) {
+  BlindRig rig = rig_with(0.02);
+  rig.drive.gap = 8e-3, rig.drive.contact_stiffness = 3000.0, rig.drive.contact_damping = 0.25;
+  rig.options.duration = 3.0;
+  const Recording recording = rig.recording();
+  for (const double read : {7.3e-3, 10e-3}) {
+    FitOptions seeded;
+    seeded.gap_seed = read;
+    const FitSummary found = fit_one(recording, with_friction(nothing_known()), seeded);
+    EXPECT_EQ(found.find("gap")->start, read);
+    EXPECT_EQ(found.trust, FitTrust::kGood) << read << ": " << found.why.text();
+    EXPECT_TRUE(contains(found, "gap", rig.drive.gap)) << found.find("gap")->value;
+  }
+}
+
 }  // namespace
 }  // namespace gapscope

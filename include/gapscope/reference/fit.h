@@ -92,7 +92,8 @@ struct FitOptions {
   std::uint64_t seed = 1;       ///< of the starting points
   bool compare_parts = true;    ///< where the model is not the drive: its values on parts of the recordings
   bool profile = false;         ///< intervals from the profile likelihood as well
-  std::optional<double> gap_seed;  ///< start of the gap from another estimate [rad]; absent: own start
+  std::optional<double>
+      gap_seed;  ///< the gap by another estimate, about which every second start is drawn [rad]
   std::shared_ptr<std::atomic<std::int64_t>>
       work;  ///< samples of plain simulations are counted here; null: nowhere
 
