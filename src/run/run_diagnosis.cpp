@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string_view>
@@ -16,10 +15,10 @@
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/first_row.h"
 #include "gapscope/inspection/reach.h"
-#include "gapscope/sliding_mode/detector.h"
 #include "run/checked.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
+#include "run/read_gap.h"
 #include "run/run_simulator.h"
 #include "run/simulated_words.h"
 
@@ -57,20 +56,6 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
                   "round (file: {}, held_out: {}) is worth a diagnosis, too.",
                   held_out, fitted, farther, held_out, fitted),
       c.input_facts());
-}
-
-/// Where nothing is known of a gap, the search begins at the one that is read without a model: whether there
-/// is a model that has it is the question here, not whether two estimates agree.
-void begin_at_reading(const Configuration& c, const std::vector<Recording>& recordings, FitOptions& fit) {
-  const DriveStructure& drive = c.model.structure;
-  const ParameterSetting& gap = c.model.parameters[place::kGap];
-  const bool even = std::all_of(recordings.begin(), recordings.end(), [](const auto& r) { return r.even(); });
-  if (fit.gap_seed || !even || !gap.estimate || std::isfinite(gap.value)) return;
-  if (!drive.has_load || drive.load != LoadKind::kFree || drive.reads_load()) return;
-  std::vector<MotorTrace> traces;
-  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
-  const GapEstimate read = detect_gap(traces);
-  if (read.verdict == GapVerdict::kBacklash) fit.gap_seed = read.gap;
 }
 
 /// Of a delay that was found in a recording which does not say what was sent before its first row.
@@ -150,7 +135,7 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
                               const DiagnosisOptions& options) {
   DiagnosisOptions asked = options;
   asked.controller = recordings.controller;
-  begin_at_reading(c, recordings.train.recordings, asked.fit);
+  if (!asked.fit.gap_seed) asked.fit.gap_seed = internal::run::read_gap(c, recordings);
   Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
                          internal::run::diagnosed_model(c, recordings.sought), asked);
   if (finish_requested()) {
