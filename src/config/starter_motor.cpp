@@ -163,6 +163,21 @@ void fit_to_structure(Begin& begin, StarterModel structure) {
   refuse(n.constant_torque, "which is more than the friction of the motor's joint takes up");
 }
 
+void doubt_the_control(Begin& begin, Coordinates coordinates) {
+  constexpr double kFarBeyond = 2.0;  // a command that is clipped goes less far
+  JointNumbers& n = begin.numbers;
+  const bool geared = n.torque_constant > 0.0 && n.torque_constant != 1.0;
+  if (!geared || !(begin.largest_input > kFarBeyond * n.input_limit)) return;
+  n.notes.push_back(
+      fmt::format("the input reaches {:.3g}, {:.2g} times the range of the actuator's control ({:.3g}): is "
+                  "it the {} at the "
+                  "joint? Then take torque_constant: 1 and no torque_saturation; with {:.3g} every number "
+                  "here comes out so many "
+                  "times too large",
+                  begin.largest_input, begin.largest_input / n.input_limit, n.input_limit,
+                  coordinates.torque_word(), n.torque_constant));
+}
+
 void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   const char* const others = "`gapscope effects` lists what else a drive may have";
   const JointNumbers& n = begin.numbers;

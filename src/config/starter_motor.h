@@ -39,6 +39,10 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);
 /// both directions.
 void fit_to_structure(Begin& begin, StarterModel structure);
 
+/// An input far beyond the range of a geared actuator's control is likely the torque behind the gear: a note
+/// says so.
+void doubt_the_control(Begin& begin, Coordinates coordinates);
+
 /// Friction, gravity, constant torques, filter and range of the actuator, where they were read, and the
 /// friction that is sought: a diagnosis then begins with what is missing beside them. A range that the input
 /// does not exceed is none of them.

@@ -179,13 +179,14 @@ std::string for_short_motions(const Diagnosis& d, Coordinates coordinates) {
 }
 
 /// Where effects were added: to use them, unless too much is left.
-/// @param whole  with what takes them to other simulators
+/// @param whole  with what takes them to other simulators, even where it loses a part of them
 std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) {
   if (std::string left = unexplained(f, card); !left.empty()) return left;
   const Diagnosis& d = *f.diagnosis;
   if (d.mismatch.after >= d.mismatch.before) return no_nearer(d);
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
   const std::string short_motions = for_short_motions(d, f.coordinates);
+  const bool carried = f.carriers && !f.carriers->empty();
   const std::string addition =
       d.added.size() > 1 ? "all of these" : without_asides(name_of(d.added.front(), d, f.coordinates));
   return std::string("Simulate with `DIR/fitted.yaml`") +
@@ -193,7 +194,7 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
           : !open              ? (short_motions.empty() ? ", which has " + addition + " in it" : "")
           : d.added.size() > 1 ? ", which predicts best with all of these in it, causes or not"
                                : ", which predicts better with it, a cause or not") +
-         short_motions + (whole ? "; " + export_words(f) : ".") +
+         short_motions + (whole || carried ? "; " + export_words(f) : ".") +
          (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt(d, f.coordinates).empty()
               ? " To settle the cause, record another motion (" + other_motion(d) +
                     ") and diagnose again with that."

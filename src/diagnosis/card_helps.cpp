@@ -229,7 +229,12 @@ std::string helps_line(const CardFacts& f, const Card& card) {
 std::string brief_helps(const CardFacts& f, const Card& card) {
   std::string text = without_asides(first_clause(helps_line(f, card)));
   if (f.diagnosis == nullptr || f.diagnosis->added.empty()) return text;
-  if (motion_words(f.diagnosis->mismatch, f.coordinates).empty()) return text;
+  const Diagnosis& d = *f.diagnosis;
+  const bool is_noise = d.laws.empty() && d.mismatch.remains > 0.0 && d.mismatch.remains < kRule.floor_ratio;
+  if (motion_words(d.mismatch, f.coordinates).empty()) {
+    if (is_noise) text.replace(text.size() - 1, 1, "; what is left is noise.");
+    return text + also_refitted(f);
+  }
   text.pop_back();
   return text + ", but the simulated motion comes no nearer.";
 }

@@ -82,6 +82,10 @@ std::string pattern_words(ResidualPattern pattern, const MismatchPlace& p, Coord
   return "";
 }
 
+bool is_adjective(const std::string& words) {
+  return words.starts_with("periodic") || words.starts_with("within");
+}
+
 }  // namespace
 
 std::optional<ContactPhase> densest_phase(const std::vector<MapShare>& mode) {
@@ -135,7 +139,11 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates, boo
     const std::string joint = patterns.find(',') == patterns.npos ? " and " : ", and ";
     const bool again =
         patterns.starts_with(kDepends) && words.starts_with(kDepends);  // "depends on x and on y"
-    patterns += patterns.empty() || words.empty() ? words : joint + words.substr(again ? kDepends.size() : 0);
+    const bool needs_verb =
+        is_adjective(words) && !is_adjective(patterns);  // "varies with x and is periodic"
+    patterns += patterns.empty() || words.empty()
+                    ? words
+                    : joint + (needs_verb ? "is " : "") + words.substr(again ? kDepends.size() : 0);
   }
   const std::string phase = phase_words(place, coordinates);
   if (place.follows.empty() || (patterns.empty() && phase.empty() && one_way.empty()))

@@ -173,6 +173,26 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
   EXPECT_THAT(testing::text_of(place.folder() / "torque.yaml"), HasSubstr("torque_constant: 1  #"));
 }
 
+TEST(Init, AsksWhetherAnInputFarBeyondTheControlIsTheTorqueBehindTheGear) {
+  Workplace place;
+  TestEncoder encoder;
+  encoder.rate = 500.0, encoder.duration = 4.0, encoder.bits = 18, encoder.step = 1e-4;
+  place.file("r.csv", testing::rows_of(record({}, sine(0.5814, 1.0), encoder)).csv());
+  const auto said_with = [&](const std::string& range, const std::string& gear) {
+    place.file(
+        "arm.xml",
+        "<mujoco><worldbody><body><inertial pos='0 0 0' mass='0.1' diaginertia='1e-3 1e-3 1e-3'/>"
+        "<joint name='elbow' armature='2e-3'/></body></worldbody><actuator><motor joint='elbow' gear='" +
+            gear + "' ctrllimited='true' ctrlrange='-" + range + " " + range + "'/></actuator></mujoco>");
+    return place.run("init r.csv --from arm.xml --joint elbow -o arm.yaml").err;
+  };
+  EXPECT_THAT(said_with("0.2", "30"),
+              HasSubstr("2.9 times the range of the actuator's control (0.2): is it the "
+                        "torque at the joint? Then take torque_constant: 1"));
+  for (const auto& [range, gear] : {std::pair{"0.5", "30"}, {"0.2", "1"}})
+    EXPECT_THAT(said_with(range, gear), ::testing::Not(HasSubstr("at the joint?"))) << range << ", " << gear;
+}
+
 TEST(Init, AGapIsSeenAndLeftToTheFit) {
   Workplace place;
   TestEncoder encoder;

@@ -44,6 +44,23 @@ TEST(CardBrief, AnswersEveryLineInASentenceOrTwo) {
   EXPECT_THAT(card.helps, HasSubstr("(20.0 N, 95 %: 19.0 to 21.0)")) << "the full line has it";
 }
 
+TEST(CardBrief, TellsThatTheRestIsNoiseAndWhichOwnNumbersHaveChanged) {
+  Diagnosis d = slide_diagnosis();
+  d.mismatch.remains = 1.1;
+  d.refitted = {{"motor_inertia", "kg m^2", 0.114, 0.154, {0.1539, 0.1541}}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
+              HasSubstr("; what is left is noise. Of your own numbers the fit has changed motor inertia"));
+  d.mismatch.remains = 3.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::Not(HasSubstr("noise")));
+}
+
+TEST(CardBrief, TakesTheModelToASimulatorWhereAFormatHasAllOfIt) {
+  Diagnosis d = slide_diagnosis();
+  CardFacts f = facts_of(nullptr, &d);
+  f.carriers = {{"c"}};
+  EXPECT_THAT(card_of(f).brief.next, HasSubstr("`gapscope export DIR --to c -o DIR_c`"));
+}
+
 TEST(CardBrief, KeepsWhatChangesTheAnswer) {
   const Answer answer = sharp_answer();
   Diagnosis d = slide_diagnosis();

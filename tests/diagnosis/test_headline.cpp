@@ -70,6 +70,11 @@ TEST(Headline, CallsOneCycleOncePerTurn) {
   EXPECT_EQ(headline_of(place, {}), "periodic in the motor angle, once per turn");
   place.periods_per_turn = 24.0;
   EXPECT_EQ(headline_of(place, {}), "periodic in the motor angle with 24 cycles per turn");
+  place.follows = {ResidualPattern::kDirection, ResidualPattern::kAngle};
+  place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
+  EXPECT_EQ(
+      headline_of(place, {}),
+      "reverses with the direction of motion and is periodic in the motor angle with 24 cycles per turn");
 }
 
 }  // namespace
