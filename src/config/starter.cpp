@@ -268,7 +268,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const bool rubs_as_anchored = begin.anchored && std::isfinite(known.anchor->friction);
   if (rubs_as_anchored) begin.numbers.friction = kNaN;
   begin.friction_sought = !one_body && !nominal && !rubs_as_anchored;
-  begin.largest_input = largest_of(r.u);
+  begin.largest_input = largest_of(r.u), begin.geared = config.gear.position != config.gear.load_position;
   doubt_the_control(begin, coordinates);
   fit_to_structure(begin, choice.structure);
   write_model(out, choice, begin, coordinates);

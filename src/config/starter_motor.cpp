@@ -50,10 +50,13 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   else
     out.entry("torque_constant", "{value: 1, guess: true}",
               coordinates.with_units("GUESS: [N m] per unit of u; with 1 all torques are in units of u. "
-                                     "Where it is known: torque_constant: 0.172, say"));
+                                     "Where it is known: torque_constant: ") +
+                  (begin.geared ? "{value: 0.06, given_at: motor}, say, before the gear" : "0.172, say"));
   const char* const scale = begin.settled() ? "" : " (over torque_constant)";
   write_estimated(out, "motor_inertia", begin.numbers.inertia,
-                  coordinates.unit("kg m^2") + scale + "; better the sheet's", begin.from);
+                  coordinates.unit("kg m^2") + scale + "; better the sheet's" +
+                      (begin.geared ? ": {value: 3e-5, given_at: motor}, say" : ""),
+                  begin.from);
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad") + scale,
                   begin.from);
 }

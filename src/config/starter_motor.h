@@ -17,6 +17,7 @@ struct Begin {
   std::string from;              ///< "read, as one body"
   double asymmetry = 0.0;        ///< of the motor's friction, forward [-]
   double largest_input = 0.0;    ///< of the recordings [unit of u]
+  bool geared = false;           ///< x1 is behind a gear, and a sheet's numbers are of the motor before it
   bool input_is_torque = false;  ///< torque_constant is 1, and no guess
   bool nominal = false;          ///< the numbers are a simulator's
   bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less

@@ -233,7 +233,7 @@ std::string brief_helps(const CardFacts& f, const Card& card) {
   const bool is_noise = d.laws.empty() && d.mismatch.remains > 0.0 && d.mismatch.remains < kRule.floor_ratio;
   if (motion_words(d.mismatch, f.coordinates).empty()) {
     if (is_noise) text.replace(text.size() - 1, 1, "; what is left is noise.");
-    return text + also_refitted(f);
+    return text + briefly_refitted(f);
   }
   text.pop_back();
   return text + ", but the simulated motion comes no nearer.";

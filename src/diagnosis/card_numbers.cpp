@@ -204,6 +204,20 @@ std::string scale_words(const Diagnosis& d) {
       factor, percent_text(100.0 * std::abs(1.0 / factor - 1.0)), factor > 1.0 ? "smaller" : "larger");
 }
 
+/// All that read differently, in their order.
+std::vector<Change> changes_of(const Diagnosis& d, Coordinates coordinates) {
+  std::vector<Change> changes;
+  for (const RefittedNumber& n : d.refitted) {
+    const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
+    const std::string change = change_of(n, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
+    if (change.empty()) continue;
+    const bool of_effect = n.key.find('.') != n.key.npos && n.unit == "N m";
+    changes.push_back({name_of_number(n, d, coordinates), change, moved_by(n), of_effect});
+  }
+  put_in_order(changes);
+  return changes;
+}
+
 }  // namespace
 
 std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all, Coordinates coordinates) {
@@ -221,16 +235,19 @@ std::string amount_of(const AddedEffect& a, const std::vector<AddedEffect>& all,
 }
 
 std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::size_t most) {
-  std::vector<Change> changes;
-  for (const RefittedNumber& n : d.refitted) {
-    const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
-    const std::string change = change_of(n, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
-    if (change.empty()) continue;
-    const bool of_effect = n.key.find('.') != n.key.npos && n.unit == "N m";
-    changes.push_back({name_of_number(n, d, coordinates), change, moved_by(n), of_effect});
-  }
-  put_in_order(changes);
-  return in_part(changes, most);
+  return in_part(changes_of(d, coordinates), most);
+}
+
+std::string briefly_refitted(const CardFacts& f) {
+  constexpr std::size_t kMost = kToldNumbers - 1;
+  if (f.diagnosis == nullptr || f.diagnosis->stopped) return "";
+  std::vector<std::string> told;
+  const std::vector<Change> changes = changes_of(*f.diagnosis, f.coordinates);
+  for (const Change& c : changes)
+    if (told.size() < kMost) told.push_back(without_asides(c.name + " " + c.words));
+  if (told.empty()) return "";
+  if (changes.size() > kMost) told.push_back(fmt::format("{} more", changes.size() - kMost));
+  return " Numbers that the fit has changed: " + enumerated(told) + ".";
 }
 
 std::string other_numbers_help(const CardFacts& f) {

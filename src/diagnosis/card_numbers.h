@@ -30,5 +30,7 @@ std::string next_of_numbers(const CardFacts& f);
 
 /// " Of your own numbers the fit has changed ...", where something was added.
 std::string also_refitted(const CardFacts& f);
+/// " Numbers that the fit has changed: motor inertia 0.114 → 0.154 kg m² and 3 more."
+std::string briefly_refitted(const CardFacts& f);
 
 }  // namespace gapscope::internal::diagnosis

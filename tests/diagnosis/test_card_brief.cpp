@@ -49,7 +49,9 @@ TEST(CardBrief, TellsThatTheRestIsNoiseAndWhichOwnNumbersHaveChanged) {
   d.mismatch.remains = 1.1;
   d.refitted = {{"motor_inertia", "kg m^2", 0.114, 0.154, {0.1539, 0.1541}}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
-              HasSubstr("; what is left is noise. Of your own numbers the fit has changed motor inertia"));
+              HasSubstr("; what is left is noise. Numbers that the fit has changed: motor inertia"));
+  d.refitted.resize(4, {"motor_damping", "N m s/rad", 0.1, 0.12, {0.119, 0.121}});
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::EndsWith(" and 2 more."));
   d.mismatch.remains = 3.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::Not(HasSubstr("noise")));
 }
