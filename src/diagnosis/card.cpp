@@ -186,7 +186,7 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
   if (d.mismatch.after >= d.mismatch.before) return no_nearer(d);
   const bool open = std::ranges::any_of(d.added, [](const AddedEffect& a) { return !a.established; });
   const std::string short_motions = for_short_motions(d, f.coordinates);
-  const bool carried = f.carriers && !f.carriers->empty();
+  const bool carried = f.carriers && !f.carriers->empty(), helps = d.verdict == DiagnosisVerdict::kHelps;
   const std::string addition =
       d.added.size() > 1 ? "all of these" : without_asides(name_of(d.added.front(), d, f.coordinates));
   return std::string("Simulate with `DIR/fitted.yaml`") +
@@ -195,9 +195,9 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
           : d.added.size() > 1 ? ", which predicts best with all of these in it, causes or not"
                                : ", which predicts better with it, a cause or not") +
          short_motions + (whole || carried ? "; " + export_words(f) : ".") +
-         (d.verdict == DiagnosisVerdict::kHelps || !brief_doubt(d, f.coordinates).empty()
-              ? " To settle the cause, record another motion (" + other_motion(d) +
-                    ") and diagnose again with that."
+         (helps || !brief_doubt(d, f.coordinates).empty()
+              ? (helps ? " To settle the cause" : " To see whether that holds elsewhere") +
+                    (", record another motion (" + other_motion(d) + ") and diagnose again with that.")
               : "");
 }
 

@@ -232,7 +232,10 @@ std::string brief_helps(const CardFacts& f, const Card& card) {
   const Diagnosis& d = *f.diagnosis;
   const bool is_noise = d.laws.empty() && d.mismatch.remains > 0.0 && d.mismatch.remains < kRule.floor_ratio;
   if (motion_words(d.mismatch, f.coordinates).empty()) {
-    if (is_noise) text.replace(text.size() - 1, 1, "; what is left is noise.");
+    const bool varies = d.mismatch.floor_from == FloorSource::kRepeatability;
+    if (is_noise)
+      text.replace(text.size() - 1, 1,
+                   varies ? "; what is left the drive itself varies by." : "; what is left is noise.");
     return text + briefly_refitted(f);
   }
   text.pop_back();

@@ -14,11 +14,11 @@ namespace {
 using namespace place;
 
 /// Rates [1/sample] that a recording can still show, for derived bounds, and beyond which no trial is made.
-/// The latter alone bounds what acts on a free load: the inertia that the recording suggests may be a tenth
-/// of the drive's, and with a third of this rate the true stiffness was beyond its bound (`study_reference
-/// 592009 1 rubs`, the gap 5.9 standard errors off; with 4 and 12 it is found as with 6). With it `590001 24
-/// rubs` has 21 at the optimum for 20 and 24 not rejected for 22. Of a locked output more leaves no play for
-/// the gap.
+/// The latter alone bounds what acts on a free load and has no start: the inertia that the recording suggests
+/// may be a tenth of the drive's, and with a third of this rate the true stiffness was beyond its bound
+/// (`study_reference 592009 1 rubs`, the gap 5.9 standard errors off; with 4 and 12 it is found as with 6).
+/// With it `590001 24 rubs` has 21 at the optimum for 20 and 24 not rejected for 22. Of a locked output more
+/// leaves no play for the gap.
 constexpr double kVisible = 2.0;
 constexpr double kFastest = 6.0;
 constexpr double kBeyond = 1.5;  ///< a given start over the most that there can be: it is of another unit
@@ -71,11 +71,12 @@ Interval derived_bounds(int number, double start, bool given, double suggestion,
 }
 
 /// The value at which a number of dampers and springs is as fast as a recording can show.
-double visible(int number, const std::array<double, kDriveParameterCount>& sizes,
+double visible(int number, bool given, const std::array<double, kDriveParameterCount>& sizes,
                const DriveStructure& structure, double dt) {
   const bool locked = structure.load == LoadKind::kLocked;
   const double m1 = sizes[kMotorInertia], mu = sizes[kMassRatio];
-  const double rate = (locked ? kVisible : kFastest) / dt, reduced = locked ? m1 : m1 * mu / (1.0 + mu);
+  const double rate = (locked || given ? kVisible : kFastest) / dt,
+               reduced = locked ? m1 : m1 * mu / (1.0 + mu);
   switch (number) {
     case kMotorDamping:
       return m1 * rate;
@@ -167,7 +168,8 @@ void add_drive(FitProblem& problem, const ReferenceModel& model,
   for (int n = 0; n < kDriveParameterCount; ++n) {
     if (!has_parameter(model.structure, n)) continue;
     const auto i = static_cast<std::size_t>(n);
-    const double most = visible(n, sizes, model.structure, problem.recordings.front().dt);
+    const double most = visible(n, std::isfinite(model.parameters[i].value), sizes, model.structure,
+                                problem.recordings.front().dt);
     problem.parameters.push_back(parameter_of_drive(n, model.parameters[i], sizes[i], most, problem.rough));
     const Parameter& p = problem.parameters.back();
     if (n == kLoadCoulombFriction) problem.load_may_stick = p.estimated || p.start > 0.0;
