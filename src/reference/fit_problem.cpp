@@ -17,8 +17,8 @@ using namespace place;
 /// The latter alone bounds what acts on a free load and has no start: the inertia that the recording suggests
 /// may be a tenth of the drive's, and with a third of this rate the true stiffness was beyond its bound
 /// (`study_reference 592009 1 rubs`, the gap 5.9 standard errors off; with 4 and 12 it is found as with 6).
-/// With it `590001 24 rubs` has 21 at the optimum for 20 and 24 not rejected for 22. Of a locked output more
-/// leaves no play for the gap.
+/// With it `590001 24 rubs` has 21 at the optimum for 20, 24 not rejected for 22 and 23 that hold for 21,
+/// `unknown` 22, 24 and 20 for 20, 23 and 21. Of a locked output more leaves no play for the gap.
 constexpr double kVisible = 2.0;
 constexpr double kFastest = 6.0;
 constexpr double kBeyond = 1.5;  ///< a given start over the most that there can be: it is of another unit
