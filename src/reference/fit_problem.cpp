@@ -23,6 +23,21 @@ constexpr double kVisible = 2.0;
 constexpr double kFastest = 6.0;
 constexpr double kBeyond = 1.5;  ///< a given start over the most that there can be: it is of another unit
 
+/// Whether what the inertia says in the balance stands out of what that leaves, to which the impacts of a
+/// free load add. Elsewhere it may be a hundredth of the drive's, or below zero: docs/science.md, "The
+/// inertia".
+bool tells_inertia(const signals::OneBody& rough) {
+  return rough.inertia > 0.0 && rough.inertia_over_left >= 1.0;
+}
+
+/// Of a free load whose inertia the balance does not tell, the one that would be as large as what it leaves.
+/// @param otherwise  where it tells nothing at all
+double inertia_of(const signals::OneBody& rough, bool free_load, double otherwise) {
+  if (free_load && !tells_inertia(rough) && rough.inertia_over_left > 0.0)
+    return std::abs(rough.inertia) / rough.inertia_over_left;
+  return rough.inertia > 0.0 ? rough.inertia : otherwise;
+}
+
 /// The size that each number probably has, from the balance of the recordings and the numbers that are given.
 /// @param constant  torque per unit of u where it is not given
 std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough, const ReferenceModel& model,
@@ -36,7 +51,7 @@ std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough
   const double km = s[kTorqueConstant] = given(kTorqueConstant, constant);
   const double peak = std::max(km * rough.peak_input, 1e-300);
   const double speed = std::max(rough.speed, 1e-300), travel = std::max(rough.travel, 1e-300);
-  const double inertia = rough.inertia > 0.0 ? km * rough.inertia : 0.01 * peak / speed;
+  const double inertia = km * inertia_of(rough, free_load, 0.01 * peak / (km * speed));
   const double drag =
       peak / std::max(rough.peak_speed, speed);  // at top speed damping takes the torque at most
   const bool locked = model.structure.has_load && !free_load;  // whose balance knows nothing of the contact
@@ -61,6 +76,8 @@ Interval derived_bounds(int number, double start, bool given, double suggestion,
       return {0.0, std::max(rough.travel, 1e-12)};
     case kContactStiffness:  // of which nothing is known, what the recording can show is the upper bound
       return {0.01 * start, given ? 100.0 * start : kInfinity};
+    case kContactDamping:  // likewise: the suggestion is that of a contact as soft as the travel allows
+      return {0.0, given ? std::max(100.0 * start, 10.0 * suggestion) : kInfinity};
     case kMotorInertia:
     case kTorqueConstant:
     case kMassRatio:
@@ -84,7 +101,7 @@ double visible(int number, bool given, const std::array<double, kDriveParameterC
       return m1 * mu * rate;
     case kContactStiffness:
       return reduced * rate * rate;
-    case kContactDamping:
+    case kContactDamping:  // likewise: the suggestion is that of a contact as soft as the travel allows
       return reduced * rate;
     default:
       return kInfinity;
@@ -255,7 +272,8 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes =
       suggested(problem.rough, model, scale.constant > 0.0 ? scale.constant : 1.0);
-  if (problem.structure.has_load && problem.structure.load == LoadKind::kFree && problem.rough.inertia > 0.0)
+  problem.makes_impacts = problem.structure.has_load && problem.structure.load == LoadKind::kFree;
+  if (problem.makes_impacts && tells_inertia(problem.rough))
     problem.inertia = sizes[kTorqueConstant] * problem.rough.inertia;
   add_drive(problem, model, sizes);
   for (Parameter& p : problem.parameters)

@@ -9,6 +9,7 @@
 //                 `gapscope init`
 //   rubs          the same, of motors with a dry friction of 2–20 % of the torque
 //   coasts        these, and friction and damping of the load from a hundredth on
+//   hard          those of rubs whose contact is 1 to 15 times as stiff and dissipates 1 to 8 times as much
 //   left_out      the motors of rubs by a model without their friction
 //   frictionless  the drives of unknown by that model
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ struct List {
   bool rubs = false;            ///< the motor has a dry friction
   bool seeks_friction = false;  ///< and the model
   bool coasts = false;          ///< friction and damping of the load are small
+  bool hard = false;            ///< the contact is stiffer and dissipates more
 };
 constexpr List kLists[] = {{"recover"},
                            {"noise"},
@@ -59,6 +61,7 @@ constexpr List kLists[] = {{"recover"},
                            {"unknown", true, false, true},
                            {"rubs", true, true, true},
                            {"coasts", true, true, true, true},
+                           {"hard", true, true, true, false, true},
                            {"left_out", true, true},
                            {"frictionless", true}};
 
@@ -126,6 +129,9 @@ Case draw(std::uint64_t seed, const std::string& list, int free) {
   if (asked.coasts)
     c.run.drive.load_coulomb *= log_uniform(g, 0.01, 1.0),
         c.run.drive.load_damping *= log_uniform(g, 0.01, 1.0);
+  if (asked.hard)
+    c.run.drive.contact_stiffness *= log_uniform(g, 1.0, 15.0),
+        c.run.drive.contact_damping *= log_uniform(g, 1.0, 8.0);
   c.truth = c.start = numbers_of(c.run.drive);
   for (int i = 0; i < free; ++i)
     c.start[static_cast<std::size_t>(kOrder[i])] *=

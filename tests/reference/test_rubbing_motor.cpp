@@ -54,5 +54,21 @@ TEST(RubbingMotor, AStiffContactIsFoundFromTheGapOfAnotherEstimate) {
   }
 }
 
+/// Its impacts leave so much of the balance that this tells an inertia of a hundredth: bounds from it would
+/// cut the contact off.
+TEST(RubbingMotor, AContactThatDissipatesMuchIsFoundThoughTheBalanceTellsNoInertia) {
+  BlindRig rig = rig_with(0.006);
+  rig.drive.gap = 9e-3, rig.drive.contact_stiffness = 3000.0, rig.drive.contact_damping = 1.5;
+  rig.drive.motor_damping = 0.02;
+  rig.options.duration = 4.0;
+  FitOptions seeded;
+  seeded.gap_seed = 9.5e-3;
+  const FitSummary found = fit_one(rig.recording(), with_friction(nothing_known()), seeded);
+  EXPECT_EQ(found.trust, FitTrust::kGood) << found.why.text();
+  EXPECT_TRUE(contains(found, "gap", rig.drive.gap)) << found.find("gap")->value;
+  EXPECT_TRUE(contains(found, "contact_damping", rig.drive.contact_damping));
+  EXPECT_TRUE(contains(found, "motor_inertia", rig.drive.motor_inertia));
+}
+
 }  // namespace
 }  // namespace gapscope
