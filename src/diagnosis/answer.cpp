@@ -234,12 +234,26 @@ std::string step_without_model(const GapEstimate& g) {
   return "";
 }
 
-/// Three at most: a contradiction has a reading and a model that is not rejected, so no sign to be checked.
+/// Where the configuration holds a gap that the reading without a model excludes.
+std::string step_of_held_gap(const Findings& f) {
+  const FittedParameter* gap = f.reference == nullptr ? nullptr : f.reference->find("gap");
+  if (gap == nullptr || gap->estimated || f.model_free == nullptr) return "";
+  const GapEstimate& g = *f.model_free;
+  if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap) return "";
+  if (g.ci95.low <= gap->value && gap->value <= g.ci95.high) return "";
+  return fmt::format(
+      "Let the fit find the gap (gap: {{estimate: true}}): the configuration holds it at {}, and without a "
+      "model it reads {}.",
+      f.coordinates.thousandths(gap->value), with_interval(g.gap, g.ci95, f.coordinates));
+}
+
+/// Three at most, the most telling first.
 std::vector<std::string> steps(const Findings& f) {
   std::vector<std::string> next;
   const auto add = [&](const std::string& step) {
     if (!step.empty()) next.push_back(step);
   };
+  add(step_of_held_gap(f));
   if (f.reference != nullptr && f.reference->rejected() &&
       f.reference->innovation_rmse >= f.reference->coasting_rmse)
     add("Check the sign and the unit of u (`gapscope check`): a motor without torque would predict this "
@@ -253,6 +267,7 @@ std::vector<std::string> steps(const Findings& f) {
       add(denies && may_have_gap(f) ? remedies().at("above_floor") : found->second);
   }
   if (f.model_free != nullptr) add(step_without_model(*f.model_free));
+  next.resize(std::min<std::size_t>(next.size(), 3));
   return next;
 }
 

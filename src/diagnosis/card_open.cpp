@@ -92,10 +92,28 @@ const BudgetRung* unestablished_rung(const Diagnosis& d) {
   return first.share > kTelling.rival_share ? &first : nullptr;
 }
 
+namespace {
+
+/// What a reader of the table would ask: of the likeliest candidate that was not taken; else of an error that
+/// is hardly above what the encoder shows.
+std::string how_near(const Diagnosis& d) {
+  const RankedEffect* first = d.ranking.empty() ? nullptr : &d.ranking.front();
+  if (first != nullptr && first->probability > d.outside_probability)
+    return fmt::format(" well enough: {} is the likeliest, but removes {:.0f} % of the error above the floor",
+                       readable(first->effect), 100.0 * std::max(first->shrink, 0.0));
+  const bool little =
+      d.mismatch.floor_from == FloorSource::kEncoder && d.mismatch.remains < std::sqrt(kRule.near_floor);
+  if (!little) return "";
+  return fmt::format("; it is little, as the error in x1 is {:.2g} times what the encoder can show",
+                     d.mismatch.remains);
+}
+
+}  // namespace
+
 std::string unknown_words(const CardFacts& f) {
   const Diagnosis& d = *f.diagnosis;
   const BudgetRung* rung = unestablished_rung(d);
-  if (rung == nullptr) return "unknown, as no effect of the catalogue explains it";
+  if (rung == nullptr) return "unknown, as no effect of the catalogue explains it" + how_near(d);
   const SharedUnit torque(rung->before, f.coordinates.shown_unit("N m"));
   return fmt::format(
              "unknown, though {} is suspected: as a term of the torque balance it brings the missing {} down "

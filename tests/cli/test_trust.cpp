@@ -93,7 +93,7 @@ TEST(Trust, AFitThatIsInterruptedLeavesTheReadingWithoutAModel) {
   const auto run = place.run("run long.yaml", "timeout --foreground --preserve-status -s INT 4");
   EXPECT_EQ(run.status, 130) << run.err;
   EXPECT_THAT(run.err, HasSubstr("the fit of the model was stopped"));
-  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, motor side) is "));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, at x1) is "));
   EXPECT_TRUE(result_of(place, "reports/long")["reference"].is_null());
 }
 
@@ -102,7 +102,7 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   make_recordings(place);
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, motor side) is 18.999"));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, at x1) is 18.999"));
   EXPECT_THAT(run.out,
               HasSubstr(" Trust: good.\nmodel error A free run of the fitted model fits the motion to 99.9"));
   const auto result = result_of(place, "reports/right");

@@ -60,7 +60,7 @@ TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
   EXPECT_EQ(a.trust, AnswerTrust::kGood);
   EXPECT_EQ(a.gap, 0.0191);
   EXPECT_EQ(a.sentence,
-            "The backlash gap 2β (full width, motor side) is 19.100 mrad (95 %: 19.088 to 19.112) by the "
+            "The backlash gap 2β (full width, at x1) is 19.100 mrad (95 %: 19.088 to 19.112) by the "
             "fitted model, and the model-free "
             "reading agrees.");
   EXPECT_EQ(of(&g, &blunt, true).from, AnswerSource::kModelFree);
@@ -139,7 +139,7 @@ TEST(Answer, OfAFitThatDidNotConvergeHasNoInterval) {
   const GapEstimate open = undecided(), g = reading(0.019, 2e-4);
   const Answer a = of(&open, &unsettled);
   EXPECT_THAT(a.sentence,
-              HasSubstr("The backlash gap 2β (full width, motor side) is 9.03 mrad by the fitted model"));
+              HasSubstr("The backlash gap 2β (full width, at x1) is 9.03 mrad by the fitted model"));
   EXPECT_TRUE(std::isnan(a.ci95.low));
   EXPECT_THAT(of(&g, &unsettled, false).sentence, HasSubstr("but the fitted model says 9.03 mrad."));
 }
@@ -248,8 +248,21 @@ TEST(Answer, CallsPlayAtZeroTorqueALimitOfTheGapAndNotTheGap) {
   const Answer a = of(&play, nullptr);
   EXPECT_TRUE(std::isnan(a.gap));
   EXPECT_EQ(a.trust, AnswerTrust::kLimited);
-  EXPECT_THAT(a.sentence, HasSubstr("play at zero torque (full width, motor side) is 34.00 mrad"));
+  EXPECT_THAT(a.sentence, HasSubstr("play at zero torque (full width, at x1) is 34.00 mrad"));
   EXPECT_THAT(a.sentence, HasSubstr("at most that"));
+}
+
+TEST(Answer, SaysFirstThatTheConfigurationHoldsAnotherGapThanItReads) {
+  const GapEstimate g = reading(0.019, 2e-4);
+  FitSummary holds = fitted(FitTrust::kRejected, 0.08, 0.0);
+  holds.parameters.front().estimated = false;
+  EXPECT_THAT(
+      of(&g, &holds).next.front(),
+      ::testing::StartsWith("Let the fit find the gap (gap: {estimate: true}): the configuration holds it "
+                            "at 80 mrad, and without a model it reads 19.00 mrad"));
+  holds.parameters.front().value = 0.0191;
+  for (const std::string& step : of(&g, &holds).next)
+    EXPECT_THAT(step, ::testing::Not(HasSubstr("holds it")));
 }
 
 TEST(Answer, HasAtMostThreeStepsAndMillimetresOnASlide) {
@@ -259,7 +272,7 @@ TEST(Answer, HasAtMostThreeStepsAndMillimetresOnASlide) {
   EXPECT_LE(of(&open, &rejected).next.size(), 3u);
   const Answer slide = answer_of({&g, nullptr, {}, Coordinates::kTranslation});
   EXPECT_EQ(slide.sentence,
-            "The backlash gap 2β (full width, motor side) is 1.900 mm (95 %: 1.880 to 1.920), measured "
+            "The backlash gap 2β (full width, at x1) is 1.900 mm (95 %: 1.880 to 1.920), measured "
             "without a model.");
 }
 

@@ -44,7 +44,7 @@ TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
   EXPECT_EQ(good->trust, AnswerTrust::kGood);
   EXPECT_EQ(good->from, AnswerSource::kDiagnosis);
   EXPECT_EQ(good->sentence,
-            "The backlash gap 2β (full width, motor side) is 20.0 mrad (95 %: 18.0 to 22.0) by the model "
+            "The backlash gap 2β (full width, at x1) is 20.0 mrad (95 %: 18.0 to 22.0) by the model "
             "that the diagnosis has fitted.");
   d.mismatch.after = 5e-4;
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited);

@@ -256,6 +256,27 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"));
 }
 
+TEST(CardCause, OfUnknownNamesTheLikeliestThatWasNotTakenAndAnErrorNearTheFloor) {
+  Diagnosis d = unknown_beside_a_budget();
+  d.budget = {};
+  d.mismatch.floor_from = FloorSource::kEncoder, d.mismatch.remains = 1.47;
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Unknown, as no effect of the catalogue explains it; it is little, as the error in x1 is 1.5 times "
+      "what the encoder can show.");
+  d.mismatch.remains = 9.0;
+  EXPECT_EQ(card_of(d).cause, "Unknown, as no effect of the catalogue explains it.");
+  RankedEffect likeliest;
+  likeliest.effect = "cogging_torque", likeliest.probability = 0.54, likeliest.shrink = 0.221;
+  d.ranking = {likeliest}, d.outside_probability = 0.4;
+  EXPECT_EQ(
+      card_of(d).cause,
+      "Unknown, as no effect of the catalogue explains it well enough: cogging torque is the likeliest, "
+      "but removes 22 % of the error above the floor.");
+  d.outside_probability = 0.6;
+  EXPECT_EQ(card_of(d).cause, "Unknown, as no effect of the catalogue explains it.");
+}
+
 TEST(CardCause, OfAnInputThatTheControllerMakesSaysWhatWouldEstablishIt) {
   Diagnosis d = unknown_beside_a_budget();
   d.traces.resize(1);

@@ -14,7 +14,7 @@ namespace gapscope {
 struct Diagnosis;
 
 /// Which gap a sentence tells; a title, whose figure has it, does without.
-inline constexpr const char* kWhichGap = " (full width, motor side)";
+inline constexpr const char* kWhichGap = " (full width, at x1)";
 
 /// kDiagnosis: the model with all that a diagnosis has added.
 enum class AnswerSource { kModelFree, kReference, kDiagnosis, kNone };
