@@ -180,6 +180,13 @@ bool removed_replaced(const fs::path& partial, const fs::path& to) {
   return !is_there(aside);
 }
 
+bool holds_mark_alone(const fs::path& partial) {
+  std::error_code gone;
+  std::vector<fs::path> content;
+  for (const auto& entry : fs::directory_iterator(partial, gone)) content.push_back(entry.path().filename());
+  return content == std::vector<fs::path>{kMark};
+}
+
 }  // namespace
 
 /// The mark goes last, and only where nothing else is left.
@@ -199,10 +206,11 @@ void remove_left_behind(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (!is_partial(entry)) continue;
     std::ifstream in(entry.path() / kMark);
-    if (std::string(std::istreambuf_iterator<char>(in), {}) == kMarkText)
-      remove_partial(entry.path(), folder);
-    else
-      fs::remove(entry.path(), ignored);  // if it is empty: killed before the mark came, or after it went
+    const std::string mark(std::istreambuf_iterator<char>(in), {});
+    if (mark == kMarkText) remove_partial(entry.path(), folder);
+    if (holds_mark_alone(entry.path()) && std::string_view(kMarkText).starts_with(mark))
+      fs::remove(entry.path() / kMark, ignored);  // killed while it was written
+    fs::remove(entry.path(), ignored);  // if it is empty: killed before the mark came, or after it went
   }
 }
 
