@@ -138,8 +138,7 @@ std::string in_part(const std::vector<Change>& changes, std::size_t most) {
 std::string change_of(const RefittedNumber& n, const std::string& unit) {
   const std::string from = fmt::format("{:.3g}", n.configured);
   if (from == fmt::format("{:.3g}", n.fitted)) return "";
-  const std::string to = SharedUnit(1.0, unit).with_interval_aside(n.fitted, n.ci95);
-  return from + " → " + (unit.empty() ? replaced(to, "  ", " ") : to);
+  return from + " → " + SharedUnit(1.0, unit).with_interval_aside(n.fitted, n.ci95);
 }
 
 std::size_t differing_rows(const SimulatorComparison* c) {

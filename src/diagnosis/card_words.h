@@ -19,8 +19,8 @@ class SharedUnit {
  public:
   /// @param first  size that chooses the prefix   @param unit  "N·m", "N", "rad" or "m"
   SharedUnit(double first, const std::string& unit);
-  std::string number(double value) const;                                             ///< "9.66"
-  std::string operator()(double value) const { return number(value) + " " + unit_; }  ///< "9.66 N"
+  std::string number(double value) const;                                       ///< "9.66"
+  std::string operator()(double value) const { return number(value) + unit_; }  ///< "9.66 N"
   /// "9.66 N, 95 %: 9.41 to 9.91": two digits of the half width; without an interval as above.
   std::string with_interval(double value, const Interval& ci95) const;
   /// "9.66 N (95 %: 9.41 to 9.91)"
@@ -30,10 +30,10 @@ class SharedUnit {
   std::string interval_after(double value, const Interval& ci95, const char* before, const char* after) const;
 
   double factor_ = 1.0;
-  std::string unit_;
+  std::string unit_;  ///< with the space before it; empty of a ratio
 };
 
-/// "The backlash gap 2β (full width, motor side) is "
+/// "The backlash gap 2β (full width, at x1) is "
 std::string the_gap_is();
 
 /// "17.1 %", "0.21 %"

@@ -51,7 +51,9 @@ TEST(CardBrief, TellsThatTheRestIsNoiseAndWhichOwnNumbersHaveChanged) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
               HasSubstr("; what is left is noise. Numbers that the fit has changed: motor inertia"));
   d.refitted.resize(4, {"motor_damping", "N m s/rad", 0.1, 0.12, {0.119, 0.121}});
-  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::EndsWith(" and 2 more."));
+  d.refitted[1] = {"mass_ratio", "-", 0.893, 0.362, {0.361, 0.363}};
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
+              HasSubstr("mass ratio 0.893 → 0.3620, motor inertia"));
   d.mismatch.remains = 3.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::Not(HasSubstr("noise")));
 }
