@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rule.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 
@@ -129,6 +130,8 @@ void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
   for (std::size_t i = 0; i < budget.rungs.size(); ++i)
     if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d.effects));
   if (!told.uncounted.empty()) return;  // the observer's residual has them all
+  // What the encoder shows nothing of is none of the model's, whatever a balance of slow torques leaves.
+  if (d.effects.empty() && d.mismatch.remains < kRule.floor_ratio) return;
   d.mismatch.before_torque = told.nominal, d.mismatch.after_torque = told.with_effects;
   d.mismatch.floor_torque = told.floor(), d.mismatch.input_torque = told.input;
 }
