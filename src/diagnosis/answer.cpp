@@ -234,10 +234,10 @@ std::string step_without_model(const GapEstimate& g) {
   return "";
 }
 
-/// Where the configuration holds a gap that the reading without a model excludes.
+/// Where the configuration holds a gap that the reading without a model excludes, and no good fit bears out.
 std::string step_of_held_gap(const Findings& f) {
   const FittedParameter* gap = f.reference == nullptr ? nullptr : f.reference->find("gap");
-  if (gap == nullptr || gap->estimated || f.model_free == nullptr) return "";
+  if (gap == nullptr || gap->estimated || f.model_free == nullptr || is_good(f)) return "";
   const GapEstimate& g = *f.model_free;
   if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap) return "";
   if (g.ci95.low <= gap->value && gap->value <= g.ci95.high) return "";

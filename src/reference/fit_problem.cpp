@@ -272,8 +272,7 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   for (const MotorTrace& r : recordings) problem.floors.push_back(signals::encoder_floor(r));
   const std::array<double, kDriveParameterCount> sizes =
       suggested(problem.rough, model, scale.constant > 0.0 ? scale.constant : 1.0);
-  problem.makes_impacts = problem.structure.has_load && problem.structure.load == LoadKind::kFree;
-  if (problem.makes_impacts && tells_inertia(problem.rough))
+  if (problem.structure.has_load && !problem.locked() && tells_inertia(problem.rough))
     problem.inertia = sizes[kTorqueConstant] * problem.rough.inertia;
   add_drive(problem, model, sizes);
   for (Parameter& p : problem.parameters)

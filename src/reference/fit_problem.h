@@ -76,7 +76,6 @@ struct FitProblem {
   FitOptions options;
   signals::OneBody rough;
   double inertia = 0.0;  ///< of motor and a free load together, by that balance [kg m²]; 0: it tells none
-  bool makes_impacts = false;         ///< its load is free
   std::vector<double> floors;         ///< per recording [rad]
   std::vector<Parameter> parameters;  ///< all of the structure, in the order of the keys
   std::vector<int> free;              ///< indices of the estimated ones

@@ -160,7 +160,7 @@ StartPoints drawn_points(const FitProblem& problem, std::size_t count) {
   StartPoints found;
   const Excerpt part(problem, kLooked);
   const double hz = problem.options.observer_hz;
-  const bool impacts = problem.makes_impacts && !values_are_given(problem);
+  const bool impacts = problem.structure.has_load && !problem.locked() && !values_are_given(problem);
   const std::size_t looked = impacts ? kDrawsOfImpacts : kDrawsPerPoint;
   for (std::size_t i = 0; i < looked * count; ++i) {
     Solution p{start_point(problem, drawn(problem, i % 2 == 0, generator))};
