@@ -28,6 +28,7 @@ struct InitArguments {
   std::string from, joint;                         ///< of a simulator's model; empty: none
   std::string options;                             ///< all that were given but --held-out and --output
   double mass = kNaN, arm = kNaN, inertia = kNaN;  ///< known of the drive [kg, m, kg m² or kg]
+  double torque_constant = kNaN;                   ///< of the motor [N m or N per unit of u]
 };
 
 StarterModel model_of(const std::string& word) {
@@ -127,8 +128,9 @@ std::string named_after(const std::string& axis, std::string yaml) {
 
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::string name = fs::path(a.output).stem().string();  // a name that was given is the report's, too
-  const StarterKnowledge known{model_of(a.model),          nominal_of(a),  anchor_of(a), name,
-                               options_turned_round(a, r), r.gain_sought()};
+  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a),
+                               a.torque_constant, name,          options_turned_round(a, r),
+                               r.gain_sought()};
   const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
@@ -198,14 +200,21 @@ void add_init(CommandLine& app) {
                        .within(1e-12, 1e9);
   for (Option* anchor : {&mass, &inertia}) anchor->excludes(from);
   inertia.excludes(mass);
+  Option constant =
+      command
+          .add_option("--torque-constant", arguments->torque_constant,
+                      "the sheet's, of the motor, before a gear [N m per unit of the input, for "
+                      "a current per A; of a slide N]")
+          .value("CONSTANT")
+          .within(1e-9, 1e9);
+  for (Option* other : {&from, &mass, &inertia}) constant.excludes(*other);
   command.footer(
       "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
       "detector decides). Of one body inertia, damping and Coulomb friction are read, for the fit to begin\n"
       "with: diagnose then says what is missing beside them.\n"
-      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless --input-unit "
-      "is\n"
-      "one of torque or force) or left to the fit.\n"
+      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless it is given or\n"
+      "--input-unit is one of torque or force) or left to the fit.\n"
       "--mass with --arm, or --inertia, is what sets the scale where nobody knows torque_constant: it is "
       "then\n"
       "written as anchor:, and the fit finds torque_constant; where an arm hangs down (anchor: hangs_at) is "

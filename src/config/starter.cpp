@@ -30,6 +30,7 @@ using internal::config::hanging_told;
 using internal::config::order_told;
 using internal::config::StarterChoice;
 using internal::config::suggest_anchor;
+using internal::config::take_constant;
 using internal::config::write_effects;
 using internal::config::write_estimated;
 using internal::config::write_motor;
@@ -262,6 +263,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (nominal) doubt_the_gear(config, coordinates, begin.numbers);
   begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
   begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);
+  if (known.torque_constant > 0.0)
+    take_constant(begin, known.torque_constant, std::abs(config.gear.position));
   begin.anchored = known.anchor.has_value();
   begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
                                            (one_body && std::isfinite(known.anchor->mass)));

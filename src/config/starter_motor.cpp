@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "gapscope/base/errors.h"
+
 namespace gapscope::internal::config {
 namespace {
 
@@ -37,12 +39,30 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
             unit + "; " + (known ? from : "the fit finds its start"));
 }
 
+void take_constant(Begin& begin, double constant, double ratio) {
+  const std::string told = fmt::format("gapscope: torque_constant {:g} is told ", constant);
+  if (begin.input_is_torque)
+    throw ConfigError(told + "of an input that is a torque or force already, expected none: it is 1 there");
+  if (begin.gain_sought)
+    throw ConfigError(
+        told + "beside a gain that is to be estimated, expected one of the two: only their product acts");
+  begin.motor_constant = constant;
+  begin.numbers.torque_constant = constant * ratio;
+  for (double* read : {&begin.numbers.inertia, &begin.numbers.damping, &begin.numbers.friction})
+    *read *= constant * ratio;
+}
+
 void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   if (begin.anchored) return write_anchored(out, begin, coordinates);
   if (begin.gain_sought)
     out.entry("torque_constant", "1", kTakenByTheGain);
   else if (begin.input_is_torque)
     out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
+  else if (begin.motor_constant > 0.0)
+    out.entry("torque_constant",
+              begin.geared ? fmt::format("{{value: {}, given_at: motor}}", yaml_number(begin.motor_constant))
+                           : yaml_number(begin.motor_constant),
+              coordinates.with_units("[N m] per unit of u, as told"));
   else if (begin.numbers.torque_constant > 0.0)
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
               coordinates.with_units("[N m] per unit of u; ") + begin.from +

@@ -20,6 +20,7 @@ struct Begin {
   bool geared = false;           ///< x1 is behind a gear, and a sheet's numbers are of the motor before it
   bool input_is_torque = false;  ///< torque_constant is 1, and no guess
   bool nominal = false;          ///< the numbers are a simulator's
+  double motor_constant = kNaN;  ///< told: torque_constant before the gear [N m or N per unit of u]
   bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less
   bool gain_sought = false;      ///< of the controller, which takes the size of the torque constant
   bool friction_sought = false;  ///< of the motor: two bodies of which no sheet tells it
@@ -27,6 +28,11 @@ struct Begin {
 
   bool settled() const { return input_is_torque || anchored || numbers.torque_constant > 0.0; }
 };
+
+/// Takes the torque constant of the sheet, and what was read over it in proportion.
+/// @param ratio  turns of the motor for one of the axis
+/// @throws ConfigError where the input is a torque, or a gain that is sought takes the constant's place
+void take_constant(Begin& begin, double constant, double ratio);
 
 /// {value: ..., estimate: true} with a number that is known, else without.
 void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,

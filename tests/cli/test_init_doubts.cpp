@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/executable.h"
+#include "cli/one_body_csv.h"
 
 namespace gapscope {
 namespace {
@@ -130,6 +131,27 @@ TEST(InitDoubts, AWindowCutsWhatIsHeldOutAsWellAndThatIsSaid) {
   EXPECT_THAT(testing::text_of(place.folder() / "both.yaml"),
               HasSubstr("window: [0, 1.5]  # s, of each file, held_out as well\n"));
   EXPECT_THAT(place.run(init + "-o one.yaml").out, Not(HasSubstr("window")));
+}
+
+/// The sheet's torque constant: what was read goes in proportion to it, and nothing is left to guess.
+TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
+  Workplace place;
+  const auto input = [](double t) { return 0.3 * std::sin(9.0 * t) + 0.2 * std::sin(31.0 * t); };
+  place.file("r.csv", one_body_csv(input));
+  const std::string init = "init r.csv --model one_body --torque-constant 0.172 ";
+  const auto told = place.run(init + "-o told.yaml");
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_THAT(told.out, Not(HasSubstr("GUESS")));
+  const std::string yaml = testing::text_of(place.folder() / "told.yaml");
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172  # N m per unit of u, as told"));
+  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.0008"));  // of 8.78e-4 kg m^2
+  EXPECT_THAT(yaml, Not(HasSubstr("over torque_constant")));
+  EXPECT_EQ(place.run(init + "--gear-ratio 2 -o geared.yaml").status, 0);
+  const std::string geared = testing::text_of(place.folder() / "geared.yaml");
+  EXPECT_THAT(geared, HasSubstr("torque_constant: {value: 0.172, given_at: motor}"));
+  EXPECT_THAT(geared, HasSubstr("motor_inertia: {value: 0.003")) << "four times, behind the gear";
+  EXPECT_THAT(place.run(init + "--input-unit 'N m' -o torque.yaml").err, HasSubstr("it is 1 there"));
+  EXPECT_NE(place.run(init + "--inertia 8.8e-4 -o anchored.yaml").status, 0);
 }
 
 }  // namespace

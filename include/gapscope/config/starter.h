@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/statistics.h"
 #include "gapscope/config/data_config.h"
 #include "gapscope/config/joint_numbers.h"
 #include "gapscope/config/model_config.h"
@@ -33,6 +34,8 @@ struct StarterKnowledge {
   /// What fixes the scale of the torques: torque_constant is then left to the fit, and with it every number
   /// that was read in units of u.
   std::optional<AnchorConfig> anchor = {};
+  /// The sheet's, of the motor, before a gear [N m or N per unit of u]; NaN: not known.
+  double torque_constant = kNaN;
   std::string name = {};     ///< that its report shall have; empty: the joint's, or the recording's
   std::string options = {};  ///< of the command beside its recordings, for one that Starter::order tells
   bool gain_sought = false;  ///< of the controller that makes the input of the target: the fit finds it
@@ -44,7 +47,8 @@ struct StarterKnowledge {
 /// @param recording  one file, and at most one that is held out
 /// @param encoder what is known of it; else the step that is seen
 /// @param folder  where the configuration will be: the recording is named relative to it
-/// @throws ConfigError where a recording cannot be read
+/// @throws ConfigError where a recording cannot be read, or a torque constant is told of an input that is a
+///   torque, or of a controller whose gain takes its place
 Starter starter_configuration(RecordingConfig recording, const EncoderConfig& encoder,
                               Coordinates coordinates, const std::string& folder,
                               const StarterKnowledge& known = {});
