@@ -107,7 +107,7 @@ Findings first_look(Study& study) {
     found.before = judge(nullptr, found.before.fitted, study.held_out, study.observer_hz);
   study.options.progress("weighing torques");
   found.budget = torque_budget(study, found.before.fitted.model);
-  if (at_floor(found.before)) return found;
+  if (at_floor(found.before) || finish_requested()) return found;
   if (std::optional<ScoredModel> together = explained_together(study, found.before)) {
     found.alone = std::max(found.before.median_free, found.before.median_innovation);
     found.before = std::move(*together);

@@ -175,7 +175,9 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
       a.explained = at_floor(a.after);
       if (a.explained) break;
     }
-    a.steps.push_back(next_step(study, a.after));
+    FurtherStep next = next_step(study, a.after);
+    if (next.candidates.empty() && finish_requested()) break;  // given up
+    a.steps.push_back(std::move(next));
     const FurtherStep& step = a.steps.back();
     if (!step.decision.accepted) break;
     a.after = step.candidates.front();

@@ -82,7 +82,7 @@ void once_more(const Study& study, const char* why, const std::vector<std::size_
   parallel_for(places.size(), study.options.threads, [&](std::size_t k) {
     ScoredModel& candidate = ranked[places[k]];
     counted.begin(fmt::format("{}: {}", why, candidate.entry->name));
-    if (!std::isfinite(candidate.score) || at_floor(candidate)) return;
+    if (!std::isfinite(candidate.score) || at_floor(candidate) || finish_requested()) return;
     FittedModel fitted = fit(candidate.fitted);
     if (fitted.mean_cost < candidate.fitted.mean_cost)
       candidate = judge(candidate.entry, std::move(fitted), study.held_out, study.observer_hz);
@@ -96,7 +96,7 @@ void once_more(const Study& study, const char* why, const std::vector<std::size_
 /// @param others false, in a later step: these do not
 void further_rounds(const Study& study, const ScoredModel& before, std::vector<ScoredModel>& ranked,
                     bool others) {
-  if (ranked.empty() || !std::isfinite(ranked.front().score)) return;
+  if (ranked.empty() || !std::isfinite(ranked.front().score) || finish_requested()) return;
   const ReferenceModel first = ranked.front().fitted.model;
   const EffectEntry* best = ranked.front().entry;
   std::vector<std::size_t> few, rest;
@@ -118,13 +118,15 @@ void further_rounds(const Study& study, const ScoredModel& before, std::vector<S
 }
 
 /// All candidates of a step. Every one races; those that lead there, and what is related to the best of them,
-/// are refined. All are where none of these explains much of what was fitted.
+/// are refined. All are where none of these explains much of what was fitted. Asked to finish, a first step
+/// does what it needs for a ranking, a later one is given up.
 class Field {
  public:
   Field(const Study& study, const ScoredModel& before, std::span<const EffectEntry* const> entries,
         std::span<const reference::FitLinearisation> bases,
-        const std::vector<std::vector<EffectStart>>& starts)
+        const std::vector<std::vector<EffectStart>>& starts, bool first_step)
       : study_(study),
+        first_step_(first_step),
         before_(before),
         entries_(entries),
         bases_(bases),
@@ -142,7 +144,9 @@ class Field {
     refine({leaders.begin(), leaders.begin() + std::min<std::ptrdiff_t>(1, std::ssize(leaders))});
     refine(leaders);
     refine(related_to_the_best());
-    if (!(least_fitted() < study_.effort.far_better * before_.fitted.mean_cost)) refine(all());
+    if (!finish_requested() && !(least_fitted() < study_.effort.far_better * before_.fitted.mean_cost))
+      refine(all());
+    if (is_given_up()) return {};
     std::vector<ScoredModel> judged(entries_.size());
     parallel_for(entries_.size(), study_.options.threads, [&](std::size_t i) {
       FittedModel fitted = fitted_[i] ? std::move(*fitted_[i]) : raced_[i]->as_raced();
@@ -157,7 +161,10 @@ class Field {
                        [&](const EffectEntry* e) { return contained_effect(*e) == entries_[i]; });
   }
 
+  bool is_given_up() const { return !first_step_ && finish_requested(); }
+
   void race(std::size_t i) {
+    if (is_given_up()) return;
     races_.begin(fmt::format("fitting {}", entries_[i]->name));
     if (reads_counts(*entries_[i])) {
       fitted_[i] = with_quantum(before_.fitted, *entries_[i], study_.seen_quantum);
@@ -186,6 +193,7 @@ class Field {
                                        [](const auto& f) { return f && f->mean_cost < kExplained; });
     Counted counted(study_.options.progress, places.size());
     parallel_for(places.size(), study_.options.threads, [&](std::size_t k) {
+      if (is_given_up()) return;
       counted.begin(fmt::format("refining {}", entries_[places[k]]->name));
       fitted_[places[k]] = raced_[places[k]]->refined(!explained);
     });
@@ -224,6 +232,7 @@ class Field {
   }
 
   const Study& study_;
+  bool first_step_;
   const ScoredModel& before_;
   std::span<const EffectEntry* const> entries_;
   std::span<const reference::FitLinearisation> bases_;
@@ -251,7 +260,7 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
       entries.push_back(entry);
   const auto starts = all_starts(study, before, entries);
   const std::vector<reference::FitLinearisation> bases = bases_of(study, before.fitted);
-  std::vector<ScoredModel> judged = Field(study, before, entries, bases, starts).judged();
+  std::vector<ScoredModel> judged = Field(study, before, entries, bases, starts, first_step).judged();
   rank(judged);
   further_rounds(study, before, judged, first_step);
   return judged;

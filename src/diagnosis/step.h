@@ -7,7 +7,9 @@
 namespace gapscope::internal::diagnosis {
 
 /// Every effect of a list that the model could have, refitted and judged, best first.
-/// @param first_step false: where none explains much, those that trail are not tried again
+/// @param first_step false: where none explains much, those that trail are not tried again, and nothing comes
+/// back
+///   once it was asked to finish
 std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& before,
                                        const std::vector<const EffectEntry*>& catalogue,
                                        bool first_step = true);

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 
 #include "blind/blind_pair.h"
+#include "diagnosis/fitted_model.h"
+#include "diagnosis/step.h"
 #include "diagnosis/verdict.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/diagnosis/card.h"
@@ -66,6 +70,22 @@ TEST(StoppedDiagnosis, EndsItsPresentStepAndStandsWhereThatExplainsAll) {
   EXPECT_FALSE(d.stopped) << "nothing was left to look for";
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
   EXPECT_EQ(d.sentence, whole.sentence);
+}
+
+TEST(StoppedDiagnosis, GivesUpALaterStepAndEndsAFirstOne) {
+  using namespace internal::diagnosis;
+  const blind::BlindPair pair = blind::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  DiagnosisOptions options;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  const Study study = make_study(train, held_out, pair.sheet, options);
+  const ScoredModel nominal = judge(nullptr, fit_nominal(train, pair.sheet, options.fit, study.observer_hz),
+                                    study.held_out, study.observer_hz);
+  const std::vector<const EffectEntry*> one = {find_effect("motor_coulomb_friction")};
+  const FinishFirst first;
+  request_finish();
+  EXPECT_TRUE(candidates_of(study, nominal, one, false).empty());
+  EXPECT_EQ(candidates_of(study, nominal, one).size(), 1u);
 }
 
 TEST(StoppedDiagnosis, LeavesCausesOpenThatFurtherStepsCouldHaveTaken) {
