@@ -85,6 +85,14 @@ CountedModel counted_of(const view::Budget& budget, const std::vector<std::strin
   return counted;
 }
 
+/// Whether the balance of slow torques leaves much where the simulated motion is at the encoder's floor and
+/// an observer has next to nothing to correct: then it does not know this drive (a delay and friction of a
+/// quick motion are no slow torques), and what it leaves is not what the model lacks.
+bool is_refuted_by_motion(const Diagnosis& d) {
+  const double least = std::sqrt(kRule.far);  // about three, midway between alike and beyond doubt
+  return d.mismatch.remains < kRule.floor_ratio && d.budget.with_effects > least * d.mismatch.after_torque;
+}
+
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
 }  // namespace
@@ -129,9 +137,11 @@ void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
   told.records = study.train.size() + study.held_out.traces.size() > 1 ? budget.floors.disagreement() : kNaN;
   for (std::size_t i = 0; i < budget.rungs.size(); ++i)
     if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d.effects));
+  if (is_refuted_by_motion(d)) {
+    told = {};
+    return;
+  }
   if (!told.uncounted.empty()) return;  // the observer's residual has them all
-  // What the encoder shows nothing of is none of the model's, whatever a balance of slow torques leaves.
-  if (d.effects.empty() && d.mismatch.remains < kRule.floor_ratio) return;
   d.mismatch.before_torque = told.nominal, d.mismatch.after_torque = told.with_effects;
   d.mismatch.floor_torque = told.floor(), d.mismatch.input_torque = told.input;
 }

@@ -6,11 +6,12 @@
 
 namespace gapscope::internal::diagnosis {
 
-/// The error budget and the size of the mismatch in torque, as they are told.
 /// What the model with the effects that were added leaves, as far as the budget has that model, and which of
 /// them it does not have.
 void count_added(const torque_view::Budget& budget, Diagnosis& diagnosis);
 
+/// The error budget and the size of the mismatch in torque, as they are told: none where the motion refutes
+/// it.
 void tell_budget(const Study& study, const torque_view::Budget& budget, Diagnosis& diagnosis);
 
 /// What each effect that the ladder has added takes.
