@@ -29,7 +29,7 @@ constexpr Word kWords[] = {
      "more"},
     {"repeatability floor", "repeatability floor",
      "how far the drive repeats its own motion from one period of the input to the next (rms difference over "
-     "√2): no model can do better, whatever the encoder reads"},
+     "√2): of an error below it a recording like this tells nothing"},
     {"| identifiable |", "identifiable",
      "the recordings determine this number; if not, its value is one of many"},
     {"Free run", "free run",

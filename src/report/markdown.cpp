@@ -1,10 +1,12 @@
 #include "report/markdown.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "report/diagnosis_words.h"
 #include "report/rich_text.h"
 #include "report/wording.h"
 
@@ -34,6 +36,20 @@ std::string parameter_row(const FittedParameter& p, const FitSummary& fit, const
                      known, start, remark);
 }
 
+/// Whether the gap is that of the model which a diagnosis fitted, and the estimate's own is rejected.
+bool is_replaced(const RunResult& run, const DiagnosisResult* diagnosis) {
+  return run.reference && run.reference->rejected() && diagnosis != nullptr && added(*diagnosis) &&
+         diagnosis->answer && diagnosis->answer->from == AnswerSource::kDiagnosis;
+}
+
+std::vector<std::string> fit_warnings(const RunResult& run) {
+  if (!run.reference) return {};
+  std::vector<std::string> warnings = texts_of(run.reference->warnings);
+  if (!run.reference->converged())
+    warnings.insert(warnings.begin(), "The fit did not converge: " + run.reference->message.text());
+  return warnings;
+}
+
 /// The gap, or what the verdict says instead.
 std::string read_gap(const GapEstimate& g, const std::string& unit) {
   if (g.verdict == GapVerdict::kBacklash) return beside_interval(g.gap, g.ci95, unit);
@@ -41,7 +57,7 @@ std::string read_gap(const GapEstimate& g, const std::string& unit) {
   return "inconclusive";
 }
 
-std::string estimate_rows(const RunResult& run) {
+std::string estimate_rows(const RunResult& run, const DiagnosisResult* diagnosis) {
   const std::string unit = position_unit(run);
   std::string text = "| backlash gap 2β | value | 95 % interval | needed to know |\n|---|---|---|---|\n";
   int rows = 0;
@@ -70,6 +86,10 @@ std::string estimate_rows(const RunResult& run) {
   if (const FittedParameter* gap = parameter(run, "gap"))
     row(run.reference->rejected() ? "model-based reference (rejected)" : "model-based reference", gap->value,
         run.reference->shown_interval(*gap), "motor position, input, equations and the given parameters");
+  if (const std::optional<ModelGap> gap = diagnosis ? diagnosis->diagnosis.model_gap : std::nullopt;
+      gap && gap->origin == GapOrigin::kEstimated && added(*diagnosis))
+    row("model " + with_added(*diagnosis) + " (diagnosis)", gap->value, gap->ci95,
+        "motor position, input, equations and the given parameters");
   if (run.comparison && std::isfinite(run.comparison->map_width))
     row("read off the x1–x2 map", run.comparison->map_width, {}, "both encoders");
   if (std::isfinite(run.simulated_gap)) row("simulated plant", run.simulated_gap, {}, "");
@@ -150,13 +170,26 @@ std::string passage_table(const RunResult& run) {
   return text + without_begin(run.model_free->events.size() - begun);
 }
 
-std::string parameter_table(const RunResult& run) {
+/// Of a reference that the diagnosis has replaced.
+std::string replaced_text(const RunResult& run, const DiagnosisResult& diagnosis) {
+  std::vector<std::string> names;
+  for (const std::string& effect : diagnosis.diagnosis.effects) names.push_back(readable(effect));
+  std::string text = fmt::format(
+      "This is the model as configured, without {}, which the diagnosis has added: the numbers to use are "
+      "those of `fitted.yaml`, not these. Warnings of this model:\n\n",
+      fmt::join(names, " and "));
+  for (const std::string& warning : fit_warnings(run)) text += "- " + warning + "\n";
+  return text + "\n";
+}
+
+std::string parameter_table(const RunResult& run, const DiagnosisResult* diagnosis) {
   if (!run.reference || run.reference->parameters.empty()) return "";
   const FitSummary& fit = *run.reference;
   std::string text = fmt::format(
-      "\n## Parameters of the reference\n\nTrust: {}. {}\n\n| parameter | {} | identifiable | start | remark "
+      "\n## Parameters of the reference\n\n{}Trust: {}. {}\n\n| parameter | {} | identifiable | start | "
+      "remark "
       "|\n|---|---|---|---|---|\n",
-      to_string(fit.trust), fit.why.text(),
+      is_replaced(run, diagnosis) ? replaced_text(run, *diagnosis) : "", to_string(fit.trust), fit.why.text(),
       fit.rejected() ? "value (of a rejected model, hence without an interval)"
                      : "value (± half of the 95 % interval)");
   for (const FittedParameter& p : fit.parameters) text += parameter_row(p, fit, run);
@@ -233,25 +266,25 @@ std::vector<std::string> notes_of(const RunResult& run) {
   return notes;
 }
 
-std::vector<std::string> warnings_of(const RunResult& run) {
+std::vector<std::string> warnings_of(const RunResult& run, const DiagnosisResult* diagnosis) {
   std::vector<std::string> warnings;
   if (run.model_free) warnings = texts_of(run.model_free->warnings);
-  if (!run.reference) return warnings;
-  if (!run.reference->converged())
-    warnings.push_back("The fit did not converge: " + run.reference->message.text());
-  for (const Remark& warning : run.reference->warnings) warnings.push_back(warning.text());
+  if (is_replaced(run, diagnosis)) return warnings;
+  for (std::string& warning : fit_warnings(run)) warnings.push_back(std::move(warning));
   return warnings;
 }
 
-std::string estimate_text(const RunResult& run, const Timing& timing) {
-  std::string text = "\n## Estimates of the gap\n\n" + estimates_text(run) + "\n\n" + estimate_rows(run) +
-                     comparison_line(run);
+std::string estimate_text(const RunResult& run, const Timing& timing, const DiagnosisResult* diagnosis) {
+  std::string text = "\n## Estimates of the gap\n\n" + estimates_text(run) + "\n\n" +
+                     estimate_rows(run, diagnosis) + comparison_line(run);
   if (run.model_free && !run.model_free->reason.empty())
     text += "\nModel-free verdict: " + sentence(run.model_free->reason.text()) + "\n";
   if (run.model_free && run.model_free->lost_motion.read())
     text += "\nLost motion: " + sentence(run.model_free->lost_motion.meaning.text()) + "\n";
   text += bounds_line(run);
-  text += timing_line(timing) + passage_table(run) + parameter_table(run) + second_encoder_table(run);
+  text +=
+      timing_line(timing) + passage_table(run) + parameter_table(run, diagnosis) + second_encoder_table(run);
+  if (is_replaced(run, diagnosis)) return text;  // by a model that needs no advice to sharpen this one
   if (run.reference)
     text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
   if (run.answer && run.answer->next.size() > 1)

@@ -25,7 +25,7 @@ constexpr const char* kWhatConfigIs =
 /// Of both, each once.
 std::vector<std::string> all_warnings(const DriveStory& s) {
   std::vector<std::string> all;
-  if (s.run) all = warnings_of(*s.run);
+  if (s.run) all = warnings_of(*s.run, s.diagnosis);
   if (!s.diagnosis) return all;
   for (const std::string& warning : s.diagnosis->diagnosis.warnings)
     if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
@@ -76,7 +76,7 @@ std::string story_text(const DriveStory& s) {
     text += "\n> " + line + "\n";
   text += card_text(drive_card(s.run, s.diagnosis));
   std::string detail = bullet_section("Warnings", all_warnings(s));
-  if (s.run) detail += estimate_text(*s.run, s.timing);
+  if (s.run) detail += estimate_text(*s.run, s.timing, s.diagnosis);
   if (s.diagnosis) detail += diagnosis_text(*s.diagnosis);
   detail += figure_section(s.figures);
   if (s.run) detail += bullet_section("Notes", notes_of(*s.run));

@@ -8,6 +8,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/report/report.h"
+#include "report/markdown.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
@@ -16,6 +17,8 @@
 namespace gapscope {
 namespace {
 
+using internal::report::estimate_text;
+using internal::report::warnings_of;
 using testing::text_of;
 namespace fs = std::filesystem;
 
@@ -149,6 +152,31 @@ TEST(Report, SaysNothingOfAResamplingThatWasNotMade) {
 TEST(Report, OfAFolderWithoutAResultIsAnErrorOfTheInput) {
   ScratchFolder scratch;
   EXPECT_THROW(write_report(scratch.path.string()), ConfigError);
+}
+
+/// Beside a diagnosis that has found what the rejected model lacks, that model is no more than where it
+/// began.
+TEST(Report, TellsARejectedModelAsReplacedByThatOfTheDiagnosis) {
+  RunResult run = sample_run({.samples = 6000});
+  run.reference->trust = FitTrust::kRejected;
+  run.reference->warnings = {Remark("told_here", "the model does not explain the recordings")};
+  run.reference->advice = {Remark("advice", "sharpen it")};
+  DiagnosisResult diagnosis;
+  diagnosis.diagnosis.effects = {"cogging_torque", "input_delay"};
+  ModelGap gap;
+  gap.origin = GapOrigin::kEstimated, gap.value = 0.0213, gap.ci95 = {0.0212, 0.0214};
+  diagnosis.diagnosis.model_gap = gap;
+  diagnosis.answer.emplace().from = AnswerSource::kReference;
+  EXPECT_EQ(warnings_of(run, &diagnosis), warnings_of(run)) << "the estimate's own answer stands";
+  diagnosis.answer->from = AnswerSource::kDiagnosis;
+  EXPECT_EQ(warnings_of(run).size(), warnings_of(run, &diagnosis).size() + 1);
+  const std::string text = estimate_text(run, {}, &diagnosis);
+  EXPECT_TRUE(
+      has(text, "| model with all that was added (diagnosis) | 21.300 mrad | 21.200 to 21.400 mrad |"));
+  EXPECT_TRUE(has(text, "without cogging torque and input delay, which the diagnosis has added"));
+  EXPECT_TRUE(has(text, "- the model does not explain the recordings\n"));
+  EXPECT_FALSE(has(text, "sharpen it"));
+  EXPECT_TRUE(has(estimate_text(run, {}), "sharpen it"));
 }
 
 }  // namespace
