@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
-#include "gapscope/inspection/first_row.h"
 #include "gapscope/inspection/reach.h"
 #include "run/checked.h"
+#include "run/doubtful_delay.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/read_gap.h"
@@ -56,30 +55,6 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
                   "round (file: {}, held_out: {}) is worth a diagnosis, too.",
                   held_out, fitted, farther, held_out, fitted),
       c.input_facts());
-}
-
-/// Of a delay that was found in a recording which does not say what was sent before its first row.
-std::string doubtful_delay(const std::vector<Recording>& recordings, const Diagnosis& d) {
-  constexpr std::string_view kDelays[] = {"input_delay", "actuator_lag", "measurement_lag"};
-  const auto& effects = d.fitted.effects;
-  if (std::none_of(effects.begin(), effects.end(), [&](const ModelEffect& e) {
-        return std::find(std::begin(kDelays), std::end(kDelays), e.entry->name) != std::end(kDelays);
-      }))
-    return "";
-  for (const Recording& r : recordings) {
-    const MotorTrace trace = r.motor_trace();
-    const std::optional<double> stands = begins_under_input(trace);
-    if (!stands) continue;
-    constexpr double kLater = 0.1;  // s: longer than any delay of a drive
-    return fmt::format(
-        "{} begins with its input on while the motor still stands ({:.3g} units of u, {:.3g} ms): what was "
-        "sent "
-        "before the first row is not in it, and a delay or lag that is told here may be far off -> leave out "
-        "the "
-        "beginning: recording: window: [{:.4g}, {:.4g}].",
-        trace.file, r.u.front(), 1e3 * *stands, trace.start + kLater, trace.time(trace.size() - 1));
-  }
-  return "";
 }
 
 /// A servo that holds a position takes goals, not inputs.
@@ -175,8 +150,8 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   d.better_swapped = swapped;
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
-  for (std::string more :
-       {internal::run::hanging_warning(c, d.fitted), doubtful_delay(recordings.train.recordings, d)})
+  for (std::string more : {internal::run::hanging_warning(c, d.fitted),
+                           internal::run::doubtful_delay(c, recordings.train.motor_traces(), d)})
     if (!more.empty()) warnings.push_back(std::move(more));
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   for (std::string& warning : d.warnings) warning = with_input_unit(warning, c.input_facts());
