@@ -59,13 +59,12 @@ Remark few_samples_around_impacts() {
 Remark release_not_located() {
   return {"release_not_located",
           "the release before the impacts cannot be located; let the motion rest at its reversals "
-          "(triangle or trapezoid), lower the frequency, or use a finer encoder"};
+          "(a trapezoid that pauses at zero torque), lower the frequency, or use a finer encoder"};
 }
 Remark load_moves() {
   return {"load_moves",
-          "the load was moving between t1 and t2; let the motion rest at its reversals (triangle or "
-          "trapezoid), or lower "
-          "the frequency"};
+          "the load was moving between t1 and t2; let the motion rest at its reversals (a trapezoid that "
+          "pauses at zero torque), or lower the frequency"};
 }
 Remark rests_alone() {
   return {

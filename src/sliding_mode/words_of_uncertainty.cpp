@@ -19,7 +19,7 @@ Remark few_counts(double counts, double needed) {
 Remark ends_uncertain() {
   return {"ends_uncertain",
           "where contact is lost and regained shows in too little; let the motion rest at its reversals "
-          "(triangle or trapezoid), or use a finer encoder"};
+          "(a trapezoid that pauses at zero torque), or use a finer encoder"};
 }
 Remark passages_differ() {
   return {"passages_differ",
