@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/results/carriage.h"
+
 namespace gapscope::internal::exports {
 namespace {
 
@@ -106,6 +108,13 @@ std::string length_words(double length, Coordinates coordinates) {
                       : fmt::format("{:.3g} {}", length, coordinates.position_unit());
 }
 
+/// Whether a format has exactly what slow recordings do not tell from a delay.
+bool has_lag(const std::string& format) {
+  return std::ranges::any_of(carriage_of(format), [](const Carriage& c) {
+    return c.part == "actuator_lag" && c.fidelity == Fidelity::kExact;
+  });
+}
+
 const TargetError* least(const std::vector<TargetError>& errors) {
   const auto at = std::min_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) {
     return !std::isnan(a.rms) && (std::isnan(b.rms) || a.rms < b.rms);
@@ -150,6 +159,13 @@ void warn_of_left_out(const ExportSource& source, Certificate& c) {
     names += (names.empty() ? "" : ", ") + part.part;
     if (const auto at = part.how.find(kInTheLoop); at != part.how.npos)
       lines += " What mends " + part.part + ", " + part.how.substr(at) + ".";
+    if (part.part == "input_delay" && has_lag(c.format))
+      lines +=
+          " Where the diagnosis says of the delay that it may as well be actuator lag, which this format "
+          "has: "
+          "`gapscope diagnose` with `--exclude input_delay --exclude measurement_lag` adds that, for an "
+          "export "
+          "of its own.";
   }
   if (names.empty()) return;
   c.warnings.push_back(fmt::format(

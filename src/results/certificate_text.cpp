@@ -86,7 +86,9 @@ std::string certificate_text(const Certificate& c) {
       "under {}, travel {} {} peak to peak. The encoder's floor (its rounding) is {} {}.\n\n",
       c.duration, c.input, in_thousandths(c.travel), unit, in_thousandths(c.encoder_floor), unit);
   text += errors_table(c) + (c.limits.empty() ? "" : "\n" + limits_list(c));
-  if (!c.own_file.empty()) text += "\n## In a file of your own\n\n`" + c.own_file + "`\n";
+  if (!c.own_file.empty())
+    text += "\n## In a file of your own\n\n`" + c.own_file +
+            "`\n\nThat file keeps its own integrator and step: the table above says how far off these are.\n";
   if (!c.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : c.warnings) text += "- " + warning + "\n";
   return text;
