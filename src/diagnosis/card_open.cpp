@@ -192,14 +192,13 @@ std::string unexplained(const CardFacts& f, const Card& card) {
     return "";
   return fmt::format(
       "Do not rely on `DIR/fitted.yaml` yet: {} of the input's {} is unexplained with all that was found "
-      "({} times {}). Record another motion ({}), "
-      "or swap `file` and `held_out` where there are two recordings, and diagnose again.",
+      "({} times {}). Record another motion ({}){}, and diagnose again.",
       percent_text(card.percent_after), f.coordinates.torque_word(),
       SharedUnit(1.0, "").number(card.torque_after / floor),
       b.records >= floor   ? std::string("that by which ") + what_disagrees(*f.diagnosis) + " disagree"
       : is_of_the_drive(b) ? "what the drive itself differs by from period to period"
                            : "what the encoder's noise alone looks like",
-      other_motion(*f.diagnosis));
+      other_motion(*f.diagnosis), f.diagnosis->better_swapped ? ", or swap `file` and `held_out`" : "");
 }
 
 }  // namespace gapscope::internal::diagnosis
