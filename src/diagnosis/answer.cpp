@@ -167,6 +167,8 @@ std::string no_number(const FitSummary& fit) {
   return gap->estimated ? why : "The model took the gap as known. " + why;
 }
 
+bool rejects(const Findings& f) { return f.reference && f.reference->rejected() && f.reference->find("gap"); }
+
 Answer by_model_alone(const Findings& f) {
   Answer a;
   if (const FittedParameter* gap = told_gap(f)) {
@@ -178,9 +180,10 @@ Answer by_model_alone(const Findings& f) {
   if (!loop.empty())
     a.sentence = loop;
   else if (f.model_free != nullptr)
-    a.sentence = "The gap is not known: without a model the recording is inconclusive (" +
-                 clause(f.model_free->reason) + ").";
-  else if (f.reference != nullptr && f.reference->rejected() && f.reference->find("gap") != nullptr)
+    a.sentence =
+        fmt::format("The gap is not known: {}without a model the recording is inconclusive ({}).",
+                    rejects(f) ? "the fitted model is rejected, and " : "", clause(f.model_free->reason));
+  else if (rejects(f))
     a.sentence = "The gap is not known.";
   if (f.reference != nullptr) a.sentence += (a.sentence.empty() ? "" : " ") + no_number(*f.reference);
   if (a.sentence.empty()) a.sentence = "Nothing was estimated.";

@@ -74,12 +74,14 @@ std::string with_aside(std::string words, const std::string& aside) {
 
 /// " Not established, though it helps: input delay (it may as well be actuator lag).", of what has an open
 /// cause, with why it is, told once where that is the same of all.
-/// @param least  whether to say how much a cause has to take
-std::string open_causes(const CardFacts& f, bool least) {
+/// @param brief  without why, but for what else it may be, and without how much a cause has to take
+std::string open_causes(const CardFacts& f, bool brief) {
   std::vector<std::string> open, why;
   for (const AddedEffect& a : f.diagnosis->added) {
     if (a.established) continue;
-    open.push_back(called(a, f));
+    std::vector<std::string> any = brief ? others_of(a, *f.diagnosis) : std::vector<std::string>{};
+    any.insert(any.begin(), called(a, f));
+    open.push_back(enumerated(any, "or"));
     why.push_back(why_open(a, *f.diagnosis));
   }
   if (open.empty()) return "";
@@ -91,7 +93,7 @@ std::string open_causes(const CardFacts& f, bool least) {
   else
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = with_aside(open[i], why[i]);
   return fmt::format(" Not established, though {}: {}.{}", open.size() > 1 ? "they help" : "it helps",
-                     enumerated(open), least ? least_of_a_cause(why) : "");
+                     enumerated(open), brief ? "" : least_of_a_cause(why));
 }
 
 /// That the cause, where none is established, is more likely outside of the catalogue; probabilities were
@@ -135,7 +137,7 @@ std::string cause_of(const CardFacts& f, bool brief) {
                 : "No effect is missing that this recording could show; only numbers of the configuration "
                   "were off, and are fitted now.") +
            simulator;
-  std::string text = established_causes(f), then = open_causes(f, !brief);
+  std::string text = established_causes(f), then = open_causes(f, brief);
   if (text.empty() && then.empty() && d.stopped)
     return "Not told: the search was stopped before its end." + simulator;
   if (rests_on_open_cause(d)) std::swap(text, then);

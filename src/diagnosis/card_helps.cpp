@@ -234,8 +234,11 @@ std::string brief_helps(const CardFacts& f, const Card& card) {
   if (motion_words(d.mismatch, f.coordinates).empty()) {
     const bool varies = d.mismatch.floor_from == FloorSource::kRepeatability;
     if (is_noise)
-      text.replace(text.size() - 1, 1,
-                   varies ? "; what is left the drive itself varies by." : "; what is left is noise.");
+      text.replace(
+          text.size() - 1, 1,
+          varies ? "; what is left is no more than the drive varies by itself." : "; what is left is noise.");
+    else if (!tells_torque(card) && d.laws.empty() && d.mismatch.remains > 0.0)
+      text.replace(text.size() - 1, 1, "; " + what_is_left(f, card) + ".");
     return text + briefly_refitted(f);
   }
   text.pop_back();

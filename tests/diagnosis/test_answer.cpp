@@ -223,6 +223,10 @@ TEST(Answer, TakesTheModelWhereTheReadingIsInconclusiveOrWasNotAskedFor) {
   EXPECT_EQ(
       of(&open, nullptr).sentence,
       "The gap is not known: without a model the recording is inconclusive (no impact to be expected).");
+  const FitSummary rejected = fitted(FitTrust::kRejected, 0.0191, 1e-5);
+  EXPECT_TRUE(of(&open, &rejected)
+                  .sentence.starts_with("The gap is not known: the fitted model is rejected, and without a "
+                                        "model the recording is inconclusive (no impact to be expected)."));
 }
 
 TEST(Answer, TrustsADenialWithoutAModelLessAndTellsItsShareOfTheTravel) {

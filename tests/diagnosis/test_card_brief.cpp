@@ -35,7 +35,8 @@ TEST(CardBrief, AnswersEveryLineInASentenceOrTwo) {
             "that the input applies.");
   EXPECT_EQ(card.brief.place, card.place);
   EXPECT_EQ(card.brief.cause,
-            "Established: motor Coulomb friction. Not established, though it helps: cogging torque.");
+            "Established: motor Coulomb friction. Not established, though it helps: cogging torque or torque "
+            "ripple.");
   EXPECT_EQ(card.brief.helps,
             "The missing force falls from 10 N to 4 N with motor Coulomb friction, then to 2 N with cogging "
             "torque.");
@@ -56,6 +57,13 @@ TEST(CardBrief, TellsThatTheRestIsNoiseAndWhichOwnNumbersHaveChanged) {
               HasSubstr("mass ratio 0.893 → 0.3620, motor inertia"));
   d.mismatch.remains = 3.0;
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps, ::testing::Not(HasSubstr("noise")));
+  d.mismatch.before_torque = d.mismatch.after_torque = kNaN;  // told in the motion
+  for (AddedEffect& a : d.added) a.share_of = ShareOf::kMotion, a.after_torque = kNaN;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
+              HasSubstr("; what is left, 3 times the encoder's noise, is not explained."));
+  d.mismatch.remains = 0.9, d.mismatch.floor_from = FloorSource::kRepeatability;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).brief.helps,
+              HasSubstr("; what is left is no more than the drive varies by itself."));
 }
 
 TEST(CardBrief, TakesTheModelToASimulatorWhereAFormatHasAllOfIt) {
