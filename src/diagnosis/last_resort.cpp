@@ -70,7 +70,7 @@ class LawFit {
     FittedModel origin = origin_;
     origin.model = with_drive(origin.model, drive);
     FittedModel before;
-    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
       FittedModel here = quickly(origin, i);
       if (before.mean_cost < kInfinity) keep_lower(here, quickly(before, i));
       keep_lower(fitted_[i], here);
@@ -82,7 +82,7 @@ class LawFit {
   void climb() {
     FittedModel from = origin_;
     double least = kInfinity;
-    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
       FittedModel here = quickly(from, i);
       if (!(here.mean_cost < kInfinity)) return;
       const double score = judged(*study_, *variant_.entry, here).score;
@@ -94,7 +94,7 @@ class LawFit {
 
   /// Level by level to the end, until one explains what was fitted.
   void refine() {
-    for (std::size_t i = 0; i < fitted_.size(); ++i) {
+    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
       FittedModel& here = fitted_[i];
       if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
       if (!(here.mean_cost < kInfinity)) continue;
@@ -283,7 +283,7 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
   FittedLaws laws = drive_known ? laws_of_known_drive(study, found.before)
                                 : fitted_laws(study, found.before, {study.sheet});
   if (!drive_known && asks_far_too_little(study, laws) && !widen(study, found, laws)) return {};
-  if (laws.judged.empty()) return {};
+  if (laws.judged.empty() || finish_requested()) return {};
   ScoredModel& best = laws.judged.front();
   if (!(found.before.score - best.score >= kRule.tells_apart) ||
       !helps(found.before, best, study.repeats_badly()))
