@@ -51,7 +51,7 @@ std::optional<JointNumbers> nominal_of(const InitArguments& a) {
 std::optional<AnchorConfig> anchor_of(const InitArguments& a) {
   AnchorConfig anchor;
   anchor.mass = a.mass, anchor.arm = a.arm, anchor.inertia = a.inertia;
-  if (std::isnan(a.mass) && std::isnan(a.inertia)) return {};
+  if (a.torque_constant > 0.0 || (std::isnan(a.mass) && std::isnan(a.inertia))) return {};
   return anchor;
 }
 
@@ -128,8 +128,13 @@ std::string named_after(const std::string& axis, std::string yaml) {
 
 void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
   const std::string name = fs::path(a.output).stem().string();  // a name that was given is the report's, too
-  const StarterKnowledge known{model_of(a.model), nominal_of(a), anchor_of(a),
-                               a.torque_constant, name,          options_turned_round(a, r),
+  const StarterKnowledge known{model_of(a.model),
+                               nominal_of(a),
+                               anchor_of(a),
+                               a.torque_constant,
+                               a.torque_constant > 0.0 ? a.inertia : kNaN,
+                               name,
+                               options_turned_round(a, r),
                                r.gain_sought()};
   const std::string output = output_of(a, r, several);
   require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
@@ -195,7 +200,8 @@ void add_init(CommandLine& app) {
   arm.needs(mass);
   Option inertia = command
                        .add_option("--inertia", arguments->inertia,
-                                   "known inertia of the motor's side [kg m^2; of a slide kg]")
+                                   "known inertia of the motor's side, before a gear that of the rotor where "
+                                   "--torque-constant is given, too [kg m^2; of a slide kg]")
                        .value("INERTIA")
                        .within(1e-12, 1e9);
   for (Option* anchor : {&mass, &inertia}) anchor->excludes(from);
@@ -207,7 +213,7 @@ void add_init(CommandLine& app) {
                       "a current per A; of a slide N]")
           .value("CONSTANT")
           .within(1e-9, 1e9);
-  for (Option* other : {&from, &mass, &inertia}) constant.excludes(*other);
+  for (Option* other : {&from, &mass}) constant.excludes(*other);
   command.footer(
       "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
@@ -215,6 +221,9 @@ void add_init(CommandLine& app) {
       "with: diagnose then says what is missing beside them.\n"
       "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless it is given or\n"
       "--input-unit is one of torque or force) or left to the fit.\n"
+      "--torque-constant and --inertia together are the motor's sheet, and fixed; of one body its inertia "
+      "is\n"
+      "where the fit begins, as it is that of all that moves.\n"
       "--mass with --arm, or --inertia, is what sets the scale where nobody knows torque_constant: it is "
       "then\n"
       "written as anchor:, and the fit finds torque_constant; where an arm hangs down (anchor: hangs_at) is "

@@ -265,6 +265,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);
   if (known.torque_constant > 0.0)
     take_constant(begin, known.torque_constant, std::abs(config.gear.position));
+  begin.motor_inertia = known.motor_inertia, begin.one_body = one_body;
   begin.anchored = known.anchor.has_value();
   begin.knows_inertia = begin.anchored && (std::isfinite(known.anchor->inertia) ||
                                            (one_body && std::isfinite(known.anchor->mass)));

@@ -17,6 +17,15 @@ constexpr double kHardLimit = 50.0;
 constexpr const char* kTakenByTheGain =
     "not known apart from the controller's gain, which takes its size: only their product acts";
 
+/// A number of the motor's sheet, which is that of its own shaft.
+/// @param begun  it is where the fit begins, and no more
+std::string of_the_sheet(double value, bool geared, bool begun = false) {
+  const std::string number = yaml_number(value);
+  if (!geared && !begun) return number;
+  return fmt::format("{{value: {}{}{}}}", number, begun ? ", estimate: true" : "",
+                     geared ? ", given_at: motor" : "");
+}
+
 /// The inertia and the torque constant where an anchor tells their scale.
 void write_anchored(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   if (begin.gain_sought)
@@ -59,9 +68,7 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
   else if (begin.input_is_torque)
     out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
   else if (begin.motor_constant > 0.0)
-    out.entry("torque_constant",
-              begin.geared ? fmt::format("{{value: {}, given_at: motor}}", yaml_number(begin.motor_constant))
-                           : yaml_number(begin.motor_constant),
+    out.entry("torque_constant", of_the_sheet(begin.motor_constant, begin.geared),
               coordinates.with_units("[N m] per unit of u, as told"));
   else if (begin.numbers.torque_constant > 0.0)
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
@@ -73,10 +80,16 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
                                      "Where it is known: torque_constant: ") +
                   (begin.geared ? "{value: 0.06, given_at: motor}, say, before the gear" : "0.172, say"));
   const char* const scale = begin.settled() ? "" : " (over torque_constant)";
-  write_estimated(out, "motor_inertia", begin.numbers.inertia,
-                  coordinates.unit("kg m^2") + scale + "; better the sheet's" +
-                      (begin.geared ? ": {value: 3e-5, given_at: motor}, say" : ""),
-                  begin.from);
+  if (begin.motor_inertia > 0.0)
+    out.entry(
+        "motor_inertia", of_the_sheet(begin.motor_inertia, begin.geared, begin.one_body),
+        coordinates.unit("kg m^2") +
+            (begin.one_body ? "; begun as told, and fitted: it is that of all that moves" : ", as told"));
+  else
+    write_estimated(out, "motor_inertia", begin.numbers.inertia,
+                    coordinates.unit("kg m^2") + scale + "; better the sheet's" +
+                        (begin.geared ? ": {value: 3e-5, given_at: motor}, say" : ""),
+                    begin.from);
   write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad") + scale,
                   begin.from);
 }

@@ -21,6 +21,8 @@ struct Begin {
   bool input_is_torque = false;  ///< torque_constant is 1, and no guess
   bool nominal = false;          ///< the numbers are a simulator's
   double motor_constant = kNaN;  ///< told: torque_constant before the gear [N m or N per unit of u]
+  double motor_inertia = kNaN;   ///< told with it: before the gear, too [kg m² or kg]
+  bool one_body = false;         ///< whose inertia is that of all that moves
   bool knows_inertia = false;    ///< by the anchor, or that it is a mass and no less
   bool gain_sought = false;      ///< of the controller, which takes the size of the torque constant
   bool friction_sought = false;  ///< of the motor: two bodies of which no sheet tells it

@@ -151,7 +151,16 @@ TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
   EXPECT_THAT(geared, HasSubstr("torque_constant: {value: 0.172, given_at: motor}"));
   EXPECT_THAT(geared, HasSubstr("motor_inertia: {value: 0.003")) << "four times, behind the gear";
   EXPECT_THAT(place.run(init + "--input-unit 'N m' -o torque.yaml").err, HasSubstr("it is 1 there"));
-  EXPECT_NE(place.run(init + "--inertia 8.8e-4 -o anchored.yaml").status, 0);
+  EXPECT_EQ(place.run(init + "--inertia 8.8e-4 -o sheet.yaml").status, 0);
+  const std::string sheet = testing::text_of(place.folder() / "sheet.yaml");
+  EXPECT_THAT(sheet,
+              AllOf(HasSubstr("motor_inertia: {value: 0.00088, estimate: true}  # kg m^2; begun as told"),
+                    Not(HasSubstr("anchor"))));
+  EXPECT_EQ(place.run("init r.csv --model gap --torque-constant 0.172 --inertia 8.8e-4 -o gap.yaml").status,
+            0);
+  EXPECT_THAT(testing::text_of(place.folder() / "gap.yaml"),
+              HasSubstr("motor_inertia: 0.00088  # kg m^2, as told"));
+  EXPECT_NE(place.run(init + "--mass 0.5 --arm 0.1 -o anchored.yaml").status, 0);
 }
 
 }  // namespace

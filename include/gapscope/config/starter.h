@@ -36,9 +36,10 @@ struct StarterKnowledge {
   std::optional<AnchorConfig> anchor = {};
   /// The sheet's, of the motor, before a gear [N m or N per unit of u]; NaN: not known.
   double torque_constant = kNaN;
-  std::string name = {};     ///< that its report shall have; empty: the joint's, or the recording's
-  std::string options = {};  ///< of the command beside its recordings, for one that Starter::order tells
-  bool gain_sought = false;  ///< of the controller that makes the input of the target: the fit finds it
+  double motor_inertia = kNaN;  ///< beside torque_constant, the sheet's as well [kg m²; of a slide kg]
+  std::string name = {};        ///< that its report shall have; empty: the joint's, or the recording's
+  std::string options = {};     ///< of the command beside its recordings, for one that Starter::order tells
+  bool gain_sought = false;     ///< of the controller that makes the input of the target: the fit finds it
 };
 
 /// Reads off a recording what it tells (columns, a rate for the detector, encoder, whether there is a gap, a
