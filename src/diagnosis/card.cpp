@@ -105,22 +105,32 @@ std::string gap_trust(const CardFacts& f) {
          to_string(f.answer->trust) + (measured ? "; the lost motion is measured." : ".");
 }
 
-/// The trust, and why it is limited in a gap that is denied by no model.
-std::string gap_trust_and_why(const CardFacts& f) {
+/// Why the trust is limited in a gap that is denied by no model, or in that of a model which leaves
+/// something.
+/// @param brief  without the sentence that says the latter
+std::string why_limited(const CardFacts& f, bool brief) {
+  if (f.answer->trust != AnswerTrust::kLimited) return "";
+  if (f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
+    return " (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm it)";
+  const bool fitted = f.answer->from == AnswerSource::kReference && f.reference != nullptr;
+  if (!brief || !fitted || f.reference->why.code() != "above_floor") return "";
+  return fmt::format(
+      " (the model leaves {} times the encoder's noise, and the interval does not hold what it lacks)",
+      SharedUnit(1.0, "").number(f.reference->innovation_rmse / f.reference->floor));
+}
+
+std::string gap_trust_and_why(const CardFacts& f, bool brief) {
   std::string text = gap_trust(f);
-  if (f.answer->trust != AnswerTrust::kLimited ||
-      !f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
-    return text;
-  text.pop_back();
-  return text +
-         " (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm it).";
+  const std::string why = why_limited(f, brief);
+  if (!why.empty()) text.insert(text.size() - 1, why);
+  return text;
 }
 
 std::string gap_line(const CardFacts& f) {
   if (f.answer == nullptr) return gap_not_estimated(f.diagnosis, f.coordinates);
   const bool whole = gap_is_known(f) || f.lost_motion;
-  return as_sentence(whole ? f.answer->sentence : without_asides(f.answer->sentence)) + gap_trust_and_why(f) +
-         gap_verdict(f);
+  return as_sentence(whole ? f.answer->sentence : without_asides(f.answer->sentence)) +
+         gap_trust_and_why(f, false) + gap_verdict(f);
 }
 
 /// What was measured of a loop, and what it means.
@@ -134,7 +144,7 @@ std::string brief_loop(const std::string& sentence) {
 std::string brief_gap(const CardFacts& f) {
   if (f.answer == nullptr) return first_clause(gap_not_estimated(f.diagnosis, f.coordinates));
   const std::string& told = f.answer->sentence;
-  if (gap_is_known(f)) return first_clause(told) + gap_trust_and_why(f) + gap_verdict(f);
+  if (gap_is_known(f)) return first_clause(told) + gap_trust_and_why(f, true) + gap_verdict(f);
   return (f.lost_motion ? brief_loop(told) : without_asides(first_clause(told))) + gap_verdict(f);
 }
 
@@ -203,6 +213,7 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
 
 std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
+  if (f.diagnosis != nullptr && f.diagnosis->stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   const std::string step = step_of_the_answer(f);
   if (!step.empty()) return step;
   if (f.diagnosis == nullptr)
@@ -211,7 +222,6 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
                  "differ, and why."
                : "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why.";
   const Diagnosis& d = *f.diagnosis;
-  if (d.stopped) return "Run `gapscope diagnose CONFIG` to its end.";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording

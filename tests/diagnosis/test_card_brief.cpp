@@ -91,6 +91,30 @@ TEST(CardBrief, KeepsWhatChangesTheAnswer) {
   EXPECT_THAT(card.brief.cause, EndsWith(" Your simulator has no cogging torque, the drive has (2 N)."));
 }
 
+TEST(CardBrief, SaysWhyTheTrustInAFittedGapIsLimited) {
+  Answer answer = sharp_answer();
+  answer.from = AnswerSource::kReference, answer.trust = AnswerTrust::kLimited;
+  FitSummary fit;
+  fit.why = Remark("above_floor", "It leaves something.");
+  fit.innovation_rmse = 2.5e-5, fit.floor = 1e-5;
+  CardFacts f = facts_of(&answer, nullptr);
+  f.reference = &fit;
+  EXPECT_THAT(
+      card_of(f).brief.gap,
+      HasSubstr(" Trust: limited (the model leaves 2.5 times the encoder's noise, and the interval does "
+                "not hold what it lacks)."));
+  fit.why = Remark("values_move", "Its parts disagree.");
+  EXPECT_THAT(card_of(f).brief.gap, EndsWith(" Trust: limited."));
+}
+
+TEST(CardBrief, OfAStoppedDiagnosisIsToGoOn) {
+  Answer answer = sharp_answer();
+  answer.next = {"For a reading without a model: record more."};
+  Diagnosis d = slide_diagnosis();
+  d.stopped = true;
+  EXPECT_EQ(card_of(facts_of(&answer, &d)).brief.next, "Run `gapscope diagnose CONFIG` to its end.");
+}
+
 TEST(CardBrief, OfWhatIsNotKnownSaysSoWithoutTheReason) {
   Answer answer;
   answer.sentence =
