@@ -15,15 +15,15 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 16 bit and a heavy load, whose passages show in the mean of the periods alone; x1 swings about 0.25 rad.
+/// 15 bit, noise and a heavy load, whose passages show in the mean of the periods alone; x1 swings about 0.25 rad.
 const TestRecording& of_a_coarse_encoder() {
   static const TestRecording recording = [] {
     TestDrive drive;
     drive.m1 = 4e-4, drive.m2 = 8.8e-4, drive.Km = 0.15;
-    drive.d1 = 0.03, drive.d2 = 0.02, drive.Fc1 = 0.01, drive.Fc2 = 0.03;
+    drive.d1 = 0.03, drive.d2 = 0.02, drive.Fc1 = 0.005, drive.Fc2 = 0.03;
     drive.k = 600.0, drive.gap = 0.008;
     TestEncoder encoder;
-    encoder.rate = 2000.0, encoder.duration = 12.0, encoder.bits = 16, encoder.noise = 0.1;
+    encoder.rate = 2000.0, encoder.duration = 12.0, encoder.bits = 15, encoder.noise = 0.5;
     return record(drive, sine(0.8, 0.8), encoder);
   }();
   return recording;

@@ -1,6 +1,7 @@
 // A motor with dry friction that has left the load before it turns round.
 #include <gtest/gtest.h>
 
+#include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "sliding_mode/test_drive.h"
 #include "sliding_mode/turn.h"
@@ -62,6 +63,29 @@ TEST(TurnTime, TheStepOfTheMotorsFrictionIsNoLossOfContact) {
     ASSERT_EQ(g.verdict, GapVerdict::kBacklash) << rig.gap << " " << g.reason.text();
     EXPECT_LE(g.ci95.low, rig.gap);
     EXPECT_GE(g.ci95.high, rig.gap);
+  }
+}
+
+/// Load and motor stand at the reversal, each held by its own friction, until the torque overcomes the
+/// motor's: every passage was refused as one that meets the flank again which it had left.
+TEST(TurnTime, AMotorThatItsOwnFrictionHoldsAtARestingLoadCrossesTheWholeGap) {
+  struct {
+    double stiffness, friction_of_load;
+  } constexpr kRigs[] = {{2400.0, 0.02}, {10000.0, 0.05}};
+  for (const auto& rig : kRigs) {
+    TestDrive drive{.m1 = 8.78e-4, .m2 = 5.7e-4, .Km = 0.172, .d1 = 0.03, .d2 = 0.03};
+    drive.Fc1 = 0.002, drive.Fc2 = rig.friction_of_load, drive.k = rig.stiffness, drive.gap = 0.0118;
+    TestEncoder encoder;
+    encoder.rate = 2500.0, encoder.duration = 10.0, encoder.bits = 18;
+    const auto triangle = [](double t) {
+      return 0.75 * (2.0 / kPi) * std::asin(std::sin(2.0 * kPi * 0.8 * t));
+    };
+    const TestRecording recording = record(drive, triangle, encoder);
+    const MotorTrace trace = recording.trace();
+    const GapEstimate g = detect_gap({&trace, 1});
+    ASSERT_EQ(g.verdict, GapVerdict::kBacklash) << rig.stiffness << " " << g.reason.text();
+    EXPECT_LE(g.ci95.low, drive.gap);
+    EXPECT_GE(g.ci95.high, drive.gap);
   }
 }
 
