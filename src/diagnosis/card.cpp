@@ -112,18 +112,23 @@ std::string why_limited(const CardFacts& f, bool brief) {
   if (f.answer->trust != AnswerTrust::kLimited) return "";
   if (f.answer->sentence.starts_with(internal::diagnosis::kNoBacklash))
     return " (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm it)";
+  const auto leaves = [](double floors) {
+    return fmt::format(
+        " (the model leaves {} times the encoder's noise, and the interval does not hold what it lacks)",
+        SharedUnit(1.0, "").number(floors));
+  };
+  if (f.answer->from == AnswerSource::kDiagnosis && f.diagnosis != nullptr &&
+      f.diagnosis->mismatch.remains >= kRule.floor_ratio &&
+      f.diagnosis->mismatch.floor_from != FloorSource::kRepeatability)
+    return leaves(f.diagnosis->mismatch.remains);
   const bool fitted = f.answer->from == AnswerSource::kReference && f.reference != nullptr;
   if (!brief || !fitted || f.reference->why.code() != "above_floor") return "";
-  return fmt::format(
-      " (the model leaves {} times the encoder's noise, and the interval does not hold what it lacks)",
-      SharedUnit(1.0, "").number(f.reference->innovation_rmse / f.reference->floor));
+  return leaves(f.reference->innovation_rmse / f.reference->floor);
 }
 
 std::string gap_trust_and_why(const CardFacts& f, bool brief) {
   std::string text = gap_trust(f);
-  const std::string why = why_limited(f, brief);
-  if (!why.empty()) text.insert(text.size() - 1, why);
-  return text;
+  return text.insert(text.size() - 1, why_limited(f, brief));
 }
 
 std::string gap_line(const CardFacts& f) {

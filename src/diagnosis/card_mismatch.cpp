@@ -58,13 +58,20 @@ std::string error_size(const CardFacts& f) {
          m.measure + ")";
 }
 
+/// What the encoder's noise alone makes an observer correct [N m]; NaN: not told.
+double correction_floor(const Diagnosis& d) {
+  const auto row = std::ranges::find_if(
+      d.measures, [](const MismatchMeasure& m) { return m.name.starts_with("residual "); });
+  return row == d.measures.end() ? kNaN : row->floor;
+}
+
 /// "; no model gets below 0.61 N, which is the encoder's noise": in the unit of the size, so that a diagnosis
 /// that goes on from another is measured by the same. Empty where no floor in torque is known. Recordings may
 /// disagree by more than a model leaves of those held out: that is no bound. What does not come back holds
 /// the encoder's noise: it is the drive's where it is clearly more.
 std::string torque_floor(const CardFacts& f, const Card& card) {
   const ErrorBudget& b = f.diagnosis->budget;
-  const double floor = b.exists() && b.uncounted.empty() ? b.floor() : kNaN;
+  const double floor = !b.exists() ? correction_floor(*f.diagnosis) : b.uncounted.empty() ? b.floor() : kNaN;
   if (f.diagnosis->verdict == DiagnosisVerdict::kNone || !(floor > 0.0 && floor < card.torque)) return "";
   if (card.torque_after < floor && !(b.records >= floor)) return "";  // a model has got below
   const std::string size = SharedUnit(card.torque, f.coordinates.shown_unit("N m"))(floor);

@@ -277,7 +277,7 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
         "the search was stopped before its end: this is what it had found by then. Further steps, free-form "
         "laws and the experiment that would decide were not looked for, and causes that hang on them stay "
         "open.");
-  if (diagnosis.exhausted = exhausted; exhausted)
+  if (diagnosis.exhausted = exhausted && !diagnosis.stopped; diagnosis.exhausted)
     diagnosis.warnings.push_back(
         fmt::format("the search ended at its limit of work, {:.0f} steps like the first.",
                     study.effort.most_steps_of_work));

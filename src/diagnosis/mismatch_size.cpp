@@ -140,12 +140,15 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
   };
   const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kMeasure.slow_hz, dt);
   const double fast_floor = std::max(encoder * noise_gain(kMeasure.fast_hz, dt), held.innovation_repeats);
-  return {row(fmt::format("free run restarted every {:.3g} s", dt * static_cast<double>(held.restart(0))),
-              free, free, &Windows::free),
-          row(fmt::format("prediction at {:g} Hz", kMeasure.slow_hz), encoder, slow_floor, &Windows::slow),
-          row(fmt::format("prediction at {:g} Hz", kMeasure.fast_hz), encoder, fast_floor, &Windows::fast),
-          {std::string("residual ") + study.options.coordinates.torque_word(),
-           study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque), kNaN}};
+  // The correcting torque is that observer's and goes with what it fails to predict: so does its floor.
+  return {
+      row(fmt::format("free run restarted every {:.3g} s", dt * static_cast<double>(held.restart(0))), free,
+          free, &Windows::free),
+      row(fmt::format("prediction at {:g} Hz", kMeasure.slow_hz), encoder, slow_floor, &Windows::slow),
+      row(fmt::format("prediction at {:g} Hz", kMeasure.fast_hz), encoder, fast_floor, &Windows::fast),
+      {std::string("residual ") + study.options.coordinates.torque_word(),
+       study.options.coordinates.torque_unit(), median_size(b.torque), median_size(a.torque),
+       study.repeats_badly() ? kNaN : median_size(a.torque) * fast_floor / (encoder * median_size(a.fast))}};
 }
 
 double undetermined_by(const Study& study, const ReferenceModel& model) {
