@@ -15,7 +15,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// 15 bit, noise and a heavy load, whose passages show in the mean of the periods alone; x1 swings about 0.25 rad.
+/// 15 bit, noise and a heavy load, whose passages show in the mean of the periods alone; x1 swings about 0.25
+/// rad.
 const TestRecording& of_a_coarse_encoder() {
   static const TestRecording recording = [] {
     TestDrive drive;
