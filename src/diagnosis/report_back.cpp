@@ -168,7 +168,9 @@ void tell_added(const Study& study, const ScoredModel& nominal, const Additions&
     const bool alone = additions.steps.empty() || !additions.steps.front().decision.accepted;
     const MismatchSize size = i > 0   ? (one_each ? d.steps[i - 1].mismatch : MismatchSize{})
                               : alone ? d.mismatch
-                                      : mismatch_size(study, nominal, additions.steps.front().before);
+                              : has_effect(additions.steps.front().before.fitted.model, effect.entry)
+                                  ? mismatch_size(study, nominal, additions.steps.front().before)
+                                  : MismatchSize{};  // it has taken the place of the first one
     a.shrink = size.shrink, a.shrink_ci95 = size.shrink_ci95;
     if (i + 1 == additions.effects.size()) a.after_torque = d.mismatch.after_torque;
     d.added.push_back(std::move(a));

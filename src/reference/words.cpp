@@ -164,8 +164,8 @@ Remark leaves_unexplained(double share, double floors) {
 }
 Remark as_well_without_gap(double ratio) {
   return {"as_well_without_gap",
-          "The recording is explained as well without a gap (prediction error with the gap closed: {:.3g} "
-          "times that with it open).",
+          "The recording is explained as well without a gap (with it closed the prediction error is {:.3g} "
+          "times as large), which does not say that the drive has none.",
           {ratio}};
 }
 Remark gap_bears_little(double ratio, double floors) {

@@ -90,9 +90,10 @@ Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
          advice;
 }
 Remark few_passages(long used, double asked, long seen, double half_periods, const Remark& advice) {
-  return Remark("few_passages",
-                "only {} usable passages of the gap where {:.0f} are asked, {} in {:.0f} half periods: ",
-                {used, asked, seen, half_periods}) +
+  return Remark(
+             "few_passages",
+             "only {} usable passages of the gap where {:.0f} are asked, of {} seen in {:.0f} half periods: ",
+             {used, asked, seen, half_periods}) +
          advice;
 }
 Remark passages_scatter(double percent) {
