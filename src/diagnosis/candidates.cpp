@@ -25,6 +25,42 @@ FittedModel refined(const Study& study, const FittedModel& from, double hz) {
   return fitted_at(fit, fit.refine(fit.point_of(from.model, from.starts), {}));
 }
 
+/// The effects of a model as the sheet has them, and those that were added, which it has not, held.
+std::vector<ModelEffect> with_added_held(std::vector<ModelEffect> effects, const ReferenceModel& sheet) {
+  for (ModelEffect& effect : effects) {
+    const auto given = std::ranges::find(sheet.effects, effect.entry, &ModelEffect::entry);
+    if (given != sheet.effects.end())
+      effect = *given;
+    else
+      for (ParameterSetting& p : effect.parameters) p.estimate = false;
+  }
+  return effects;
+}
+
+/// The sheet's model with what was added held searched anew, then all of it refined. By the slow observer,
+/// which sees what a gap does; nothing where it sees next to nothing left.
+FittedModel searched_around_effects(const Study& study, const FittedModel& fitted) {
+  if (fitted.searched) return fitted;
+  constexpr double hz = kMeasure.slow_hz;
+  const double ratio = study.options.fit.rejected_ratio;
+  FittedModel same = fitted;
+  same.searched = true;
+  const FittedModel slow = refined(study, fitted, hz);
+  if (!(slow.mean_cost > ratio * ratio)) return same;
+  study.options.progress("looking for the gap anew, with what was added");
+  ReferenceModel held = study.sheet;
+  held.effects = with_added_held(fitted.model.effects, study.sheet);
+  FitOptions whole = study.options.fit;
+  whole.search_halves = false;  // what is held is not quite right, and leaves too much everywhere
+  FittedModel other = fit_nominal(study.train, held, whole, hz);
+  if (!(other.mean_cost < slow.mean_cost)) return same;
+  for (std::size_t i = 0; i < other.model.effects.size(); ++i)
+    if (!has_effect(study.sheet, other.model.effects[i].entry))
+      other.model.effects[i] = fitted.model.effects[i];
+  other = refined(study, refined(study, other, hz), study.observer_hz);
+  return other.mean_cost < fitted.mean_cost ? other : same;
+}
+
 }  // namespace
 
 std::vector<reference::FitLinearisation> bases_of(const Study& study, const FittedModel& nominal) {
@@ -83,7 +119,14 @@ FittedModel retry(const Study& study, const FittedModel& candidate, const Refere
   return best;
 }
 
+bool seeks_gap(const ReferenceModel& sheet) {
+  const ParameterSetting& gap = sheet.parameters[place::kGap];
+  return sheet.structure.has_load && sheet.structure.load == LoadKind::kFree && gap.estimate &&
+         std::isnan(gap.value);
+}
+
 FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
+  if (seeks_gap(study.sheet)) return searched_around_effects(study, fitted);
   const auto is_start = [](const ParameterSetting& p) { return p.estimate && !std::isnan(p.value); };
   const auto& drive = study.sheet.parameters;
   if (std::none_of(drive.begin(), drive.end(), is_start)) return fitted;  // it would set out from itself
@@ -92,6 +135,10 @@ FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
   FittedModel other =
       fit_nominal(study.train, with_drive(fitted.model, study.sheet), given_alone, study.observer_hz);
   return other.mean_cost < fitted.mean_cost ? other : fitted;
+}
+
+bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
+  return std::ranges::find(model.effects, entry, &ModelEffect::entry) != model.effects.end();
 }
 
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {

@@ -50,11 +50,18 @@ FittedModel on_drive_of(const Study& study, const FittedModel& candidate, const 
 /// hardly determine have drifted. Where none of that comes to the floor, also led by a faster observer.
 FittedModel retry(const Study& study, const FittedModel& candidate, const ReferenceModel& better);
 
+/// Whether the gap of a free load is sought with no value to begin with.
+bool seeks_gap(const ReferenceModel& sheet);
+
 /// A fitted model once more from the given values of the drive, on growing parts of the recordings, with its
 /// effects as they were found; whichever leaves less. The numbers that a fit without the effects had led to
 /// may lie in another minimum than theirs, and a refinement on all of the recordings not lead from the given
-/// ones to it.
+/// ones to it. A gap that the sheet gives no value of is searched for as the first fit did, which did not
+/// know of the effects: it may have closed the gap to stand for them.
 FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted);
+
+/// Whether the effect is in the model.
+bool has_effect(const ReferenceModel& model, const EffectEntry* entry);
 
 /// Whether the effect can be added to this model at all: contact effects need a contact, backlash a drive
 /// without, and what the fit estimates anyway cannot be missing.

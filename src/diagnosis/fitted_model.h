@@ -19,6 +19,7 @@ struct FittedModel {
   std::array<BoundReached, kDriveParameterCount> drive_at_bound = {};  ///< of the drive's parameters
   bool balanced =
       false;  ///< its numbers are those of the torque balance, which no fit to the motion has moved
+  bool searched = false;  ///< from afar with its effects as they are: that has led nowhere else
 };
 
 /// The model where a refinement has led; infinite if that failed.

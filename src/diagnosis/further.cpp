@@ -154,6 +154,18 @@ void leave_minimum(const Study& study, ScoredModel& model) {
     model = judge(model.entry, std::move(other), study.held_out, study.observer_hz);
 }
 
+/// The model so far from the drive of a step whose effect has ended at a bound, where it does as well without
+/// that effect: what was gained is another minimum of the drive's numbers.
+std::optional<ScoredModel> without_empty_effect(const Study& study, const ScoredModel& before,
+                                                const FurtherStep& step) {
+  const ScoredModel& best = step.candidates.front();
+  if (!step.decision.accepted || best.fitted.at_bound.empty() || reads_counts(*best.entry)) return {};
+  ScoredModel less = refitted(study, without(best.fitted.model, best.entry));
+  const double gained = log_score(before.windows) - less.score;
+  if (!(less.score < log_score(best.windows) + kRule.indistinct) || !(gained >= kRule.tells_apart)) return {};
+  return less;
+}
+
 /// Forward from a candidate of the first step.
 Additions follow(Study study, const Findings& found, const ScoredModel& first,
                  std::vector<const EffectEntry*> group) {
@@ -176,7 +188,13 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
       if (a.explained) break;
     }
     FurtherStep next = next_step(study, a.after);
-    if (next.candidates.empty() && finish_requested()) break;  // given up
+    if (next.candidates.empty() && finish_requested()) break;          // given up
+    const bool decided = found.decision.accepted || !a.steps.empty();  // else this step has to bear it out
+    if (std::optional<ScoredModel> less =
+            decided ? without_empty_effect(study, a.after, next) : std::nullopt) {
+      a.after = std::move(*less);
+      continue;
+    }
     a.steps.push_back(std::move(next));
     const FurtherStep& step = a.steps.back();
     if (!step.decision.accepted) break;
@@ -201,9 +219,12 @@ const ScoredModel& nominal_of(const Findings& found, const Additions& a) {
   return a.wider ? a.wider->nominal : found.before;
 }
 
-bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
-  return std::any_of(model.effects.begin(), model.effects.end(),
-                     [&](const ModelEffect& e) { return e.entry == entry; });
+const ModelEffect& first_effect(const Findings& found, const Additions& a) {
+  const EffectEntry* entry = a.effects.front().entry;
+  const auto& effects = a.after.fitted.model.effects;
+  if (const auto in = std::ranges::find(effects, entry, &ModelEffect::entry); in != effects.end()) return *in;
+  const auto at = std::ranges::find(found.candidates, entry, &ScoredModel::entry);
+  return (at == found.candidates.end() ? found.candidates.front() : *at).fitted.model.effects.back();
 }
 
 bool leaves_nothing(const Additions& a) { return a.accepted && (a.explained || at_floor(a.after)); }

@@ -55,6 +55,10 @@ bool leaves_nothing(const Additions& additions);
 /// The model without any effect, by what the additions are judged by.
 const ScoredModel& nominal_of(const Findings& found, const Additions& additions);
 
+/// The effect that was found first, as all steps have left it; where it is in none of their models, as the
+/// first step has fitted it alone.
+const ModelEffect& first_effect(const Findings& found, const Additions& additions);
+
 /// All steps.
 struct EffectSearch {
   Findings found;
@@ -73,8 +77,5 @@ std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
 /// themselves and leave hardly a part. A first step that is there alone has been decided upon.
 bool borne_out(const ScoredModel& nominal, const Additions& additions);
-
-/// Whether the effect is in the model.
-bool has_effect(const ReferenceModel& model, const EffectEntry* entry);
 
 }  // namespace gapscope::internal::diagnosis

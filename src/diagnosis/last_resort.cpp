@@ -183,7 +183,7 @@ FittedLaws laws_of_known_drive(const Study& study, const ScoredModel& before) {
 
 /// All laws race from the fitted drive, which may have drifted to hide what is missing, and from others. The
 /// leader is refined first; the rest then begin on its drive, too, and where it does not explain what was
-/// fitted, they are refined as well.
+/// fitted, they are refined as well, unless the work of the search is done.
 FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
                        const std::vector<ReferenceModel>& other_drives) {
   std::vector<LawFit> laws = laws_over(study, before);
@@ -200,11 +200,11 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
   laws.front().tell(counted);
   laws.front().refine();
   FittedLaws found{{}, laws.front().closest()};
-  const bool explained = found.closest.mean_cost < kExplained;
+  const bool ends = found.closest.mean_cost < kExplained || study.has_done_its_work();
   parallel_for(laws.size() - 1, study.options.threads, [&](std::size_t i) {
     laws[i + 1].tell(counted);
     laws[i + 1].race_on(found.closest.model);
-    if (!explained) laws[i + 1].refine();
+    if (!ends) laws[i + 1].refine();
   });
   for (const LawFit& law : laws)
     if (costs_less(law.closest(), found.closest)) found.closest = law.closest();

@@ -133,13 +133,6 @@ DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredM
   return s;
 }
 
-/// The effect as the first step has fitted it, alone.
-const ModelEffect& alone(const Findings& found, const EffectEntry* entry) {
-  const auto at = std::find_if(found.candidates.begin(), found.candidates.end(),
-                               [&](const ScoredModel& c) { return c.entry == entry; });
-  return (at == found.candidates.end() ? found.candidates.front() : *at).fitted.model.effects.back();
-}
-
 void tell_steps(const Study& study, const Additions& added, double band_hz, Diagnosis& d) {
   for (const Addition& effect : added.effects)
     if (added.accepted) d.effects.push_back(effect.entry->name);
@@ -244,7 +237,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
   tell_steps(study, additions, band_of(found), d);
   tell_models(study, found, nominal, added ? additions.after : nominal,
-              added ? &alone(found, additions.effects.front().entry) : nullptr, d);
+              added ? &first_effect(found, additions) : nullptr, d);
   if (added) tell_added(study, nominal, additions, d);
   tell_intervals(study, added ? additions.after.fitted : nominal.fitted, nominal.fitted.model, d);
   d.rivals = open_question(found, additions);

@@ -90,6 +90,20 @@ void once_more(const Study& study, const char* why, const std::vector<std::size_
   rank(ranked);
 }
 
+/// Searches for the gap anew with the best candidate, and with what that has come to as long as it leaves far
+/// less: the first fit, and all candidates with it, may be where a gap or its contact stands for the effect.
+void leave_closed_gap(const Study& study, std::vector<ScoredModel>& ranked) {
+  if (ranked.empty() || !seeks_gap(study.sheet)) return;
+  ScoredModel& best = ranked.front();
+  for (bool far_better = true;
+       far_better && std::isfinite(best.score) && !at_floor(best) && !finish_requested();) {
+    FittedModel other = searched_from_sheet(study, best.fitted);
+    far_better = other.mean_cost < study.effort.far_better * best.fitted.mean_cost;
+    best = judge(best.entry, std::move(other), study.held_out, study.observer_hz);
+  }
+  rank(ranked);
+}
+
 /// Fits the best few and what is related to the best once more, also from the best candidate's values: where
 /// two are hard to tell apart, a poor minimum must not decide. Where one explains all, its drive is the place
 /// to begin; where none explains much, all others follow.
@@ -262,6 +276,7 @@ std::vector<ScoredModel> candidates_of(const Study& study, const ScoredModel& be
   const std::vector<reference::FitLinearisation> bases = bases_of(study, before.fitted);
   std::vector<ScoredModel> judged = Field(study, before, entries, bases, starts, first_step).judged();
   rank(judged);
+  if (first_step) leave_closed_gap(study, judged);
   further_rounds(study, before, judged, first_step);
   return judged;
 }

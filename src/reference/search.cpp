@@ -130,7 +130,8 @@ SearchResult search(const FitProblem& problem) {
 bool may_have_missed(const FitProblem& problem, const SearchResult& result) {
   const double ratio = problem.options.rejected_ratio;
   const bool sought =
-      problem.structure.has_load && !problem.locked() && !values_are_given(problem) &&
+      problem.options.search_halves && problem.structure.has_load && !problem.locked() &&
+      !values_are_given(problem) &&
       std::any_of(problem.parameters.begin(), problem.parameters.end(),
                   [](const Parameter& p) { return p.id == drive_number(place::kGap) && p.estimated; });
   return sought && result.best().mean_square_with_priors > ratio * ratio;

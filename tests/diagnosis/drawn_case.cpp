@@ -15,7 +15,8 @@ bool has_fitted_amount(std::string_view effect) {
 
 std::vector<std::string> effects_of_kind(const std::string& kind) {
   if (kind == "none" || kind == "lawless") return {"none"};
-  const bool known = kind == "known" || kind == "one" || kind == "whole" || kind == "amount";
+  const bool known =
+      kind == "known" || kind == "one" || kind == "whole" || kind == "unstarted" || kind == "amount";
   std::vector<std::string> names;
   for (const independent_plant::DrawnEffect& e : independent_plant::effect_entries())
     if (e.in_catalogue == known && e.name != "backlash" && (kind != "amount" || has_fitted_amount(e.name)))

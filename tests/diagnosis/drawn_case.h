@@ -9,9 +9,9 @@
 
 namespace gapscope::test {
 
-/// Effects of the independent plant that a study of a kind draws: one of the catalogue (known, one, whole;
-/// amount: of these, whose law the drive has in the catalogue's form), one outside it (outside, beyond, law),
-/// or none.
+/// Effects of the independent plant that a study of a kind draws: one of the catalogue (known, one, whole,
+/// unstarted; amount: of these, whose law the drive has in the catalogue's form), one outside it (outside,
+/// beyond, law), or none.
 std::vector<std::string> effects_of_kind(const std::string& kind);
 
 /// What a seed of a study stands for.

@@ -1,15 +1,15 @@
 // The diagnosis on drives of the independent plant with an effect that it is not told.
-//   study_diagnosis FIRST_SEED COUNT known|outside|none|pair|one|beyond|ask|law|lawless|whole|amount FILE
-//   [THREADS [RIG]]
+//   study_diagnosis FIRST_SEED COUNT
+//     known|outside|none|pair|one|beyond|ask|law|lawless|whole|unstarted|amount FILE [THREADS [RIG]]
 // Appends one line a case to FILE and prints the counts of all of it with Wilson limits; seeds that FILE
 // holds already are not run again. Effect and rig follow from the seed. "Removed" takes the true effect and
 // its look-alikes out of the candidates that were fitted and decides again. "pair" are two effects, "one" and
 // "beyond" a known one and one outside the catalogue where the search may take as many steps as it likes;
 // "ask" the next experiment for look-alikes; "law", "lawless" and "whole" are the whole diagnosis, laws of
 // last resort included, of drives that lack something outside the catalogue, nothing, and one effect of the
-// catalogue. "amount" is no diagnosis but what its amounts rest on: the fit with the effect that the drive
-// has, of those whose law is the catalogue's. These two count how often the 95 % interval of an amount holds
-// what was drawn.
+// catalogue; "unstarted" is the last of these where the sheet gives hardly a number. "amount" is no diagnosis
+// but what its amounts rest on: the fit with the effect that the drive has, of those whose law is the
+// catalogue's. "whole" and "amount" count how often the 95 % interval of an amount holds what was drawn.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -26,6 +26,7 @@
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/pair_study.h"
 #include "diagnosis/study_row.h"
+#include "diagnosis/unstarted_study.h"
 #include "diagnosis/where.h"
 #include "gapscope/base/parallel.h"
 #include "support/thread_time.h"
@@ -169,6 +170,7 @@ bool is_whole(const std::string& kind) { return kind == "law" || kind == "lawles
 
 StudyRow row_of(const std::string& kind, const test::DrawnCase& c) {
   if (kind == "amount") return test::examine_amount(c.pair(), c.seed);
+  if (kind == "unstarted") return test::examine_unstarted(c.pair(), c.seed);
   if (is_whole(kind)) return test::examine_laws(c.pair(), c.seed);
   if (kind == "ask") return test::examine_question(c.effect, c.seed);
   if (kind == "pair" || kind == "one" || kind == "beyond")
@@ -181,6 +183,7 @@ void print_counts(const std::string& kind, const std::vector<StudyRow>& rows) {
   if (is_whole(kind)) test::print_laws(rows);
   if (kind == "whole" || kind == "amount") test::print_amounts(rows);
   if (kind == "known") print_known(rows);
+  if (kind == "unstarted") test::print_unstarted(rows);
   if (kind == "none") print_none(rows);
   if (kind == "outside" || kind == "beyond" || kind == "law") print_outside(rows);
   if (kind == "pair" || kind == "one") test::print_steps(rows);

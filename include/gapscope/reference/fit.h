@@ -84,6 +84,7 @@ DriveController fitted_controller(const ControllerModel& model, const FitSummary
 struct FitOptions {
   int starts = 6;               ///< local searches at most; they stop at the first that reaches the floor
   int max_iterations = 60;      ///< of each local search
+  bool search_halves = true;    ///< of a recording, where a gap without a value was not found in the whole
   double observer_hz = 2.5;     ///< poles of the observer in the search [Hz]
   double rejected_hz = 30.0;    ///< poles when the model does not reach the encoder's floor [Hz]
   double rejected_ratio = 3.0;  ///< innovations above this many floors: the model is not the drive
