@@ -112,6 +112,16 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
   return size;
 }
 
+std::optional<AsConfigured> as_configured(const Study& study) {
+  const ReferenceModel& sheet = study.sheet;
+  const reference::ModelFit fit(study.held_out.traces, sheet, study.options.fit, study.observer_hz);
+  if (!fit.values_are_given() || fit.given_point().q.empty()) return {};
+  const std::vector<Playback> played = play(sheet, study.held_out, study.observer_hz, false);
+  if (played.empty()) return AsConfigured{};
+  const Windows windows = windows_of(played, study.held_out);
+  return AsConfigured{judged_floor(study) * median_size(windows.*judged_windows(study))};
+}
+
 Interval law_shrink_interval(const Study& study, const ScoredModel& before, const ScoredModel& after) {
   const auto windows = judged_windows(study);
   const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;

@@ -22,6 +22,10 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
 /// mean square, in which the worst ones count, and beyond them as far as that of any effect.
 Interval law_shrink_interval(const Study& study, const ScoredModel& before, const ScoredModel& after);
 
+/// What the sheet leaves of the judged windows before any fit; nothing where it leaves numbers to the fit, or
+/// nothing is fitted.
+std::optional<AsConfigured> as_configured(const Study& study);
+
 /// Restarted free runs, innovations at both gains and the correcting torque, side by side.
 std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<Playback>& before,
                                          const std::vector<Playback>& after);

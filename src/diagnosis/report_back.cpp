@@ -225,6 +225,7 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
   tell_torque(study, km, d);
   if (found.budget) tell_budget(study, *found.budget, d);
   tell_whole_runs(study, nominal.fitted.model, added, d);
+  d.as_configured = as_configured(study);
   if (found.budget || study.repeats_badly()) forget_probabilities(d);
 }
 

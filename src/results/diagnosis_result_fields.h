@@ -202,6 +202,11 @@ void fields(Archive& archive, WholeRun& w) {
   archive("travel_rad", w.travel);
 }
 
+template <class Archive>
+void fields(Archive& archive, AsConfigured& c) {
+  archive("error_rad", c.error);
+}
+
 /// The seven maps of a place: shares, or what an error without a place would have.
 struct MapsOf {
   MismatchPlace& place;
@@ -251,6 +256,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.seldom("model_gap", g.model_gap);
   archive("undetermined_rad", g.undetermined);
   archive.seldom("whole_run", g.whole_run);
+  archive.seldom("as_configured", g.as_configured);
   archive.single("error_budget", g.budget);
   archive.list("ranking", g.ranking);
   archive("outside_catalogue_probability", g.outside_probability);

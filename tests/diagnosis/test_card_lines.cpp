@@ -42,6 +42,27 @@ TEST(CardMismatch, TellsHowFarAFreeSimulationDeparts) {
   EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("Simulated freely"))) << "a drive that holds a position";
 }
 
+TEST(CardMismatch, TellsHowFarOffTheConfigurationWasBeforeTheFit) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.12, {0.11, 0.13}}};
+  d.mismatch.before = 0.017, d.mismatch.after = 0.0071, d.mismatch.measure = "free runs";
+  EXPECT_THAT(card_of(d).brief.mismatch, Not(HasSubstr("As configured"))) << "it left numbers to the fit";
+  d.as_configured = AsConfigured{0.382};
+  EXPECT_THAT(
+      card_of(d).brief.mismatch,
+      HasSubstr(" As configured the simulated motion is 382 mrad off, refitted it is 17 mrad off, with "
+                "the additions 7.1 mrad."));
+  d.as_configured->error = kNaN;
+  EXPECT_THAT(
+      card_of(d).mismatch,
+      HasSubstr("the simulated motion runs away, refitted it is 17 mrad off, with the additions 7.1 mrad "
+                "(free runs)."));
+  d.mismatch.measure = "prediction of an observer";
+  EXPECT_THAT(card_of(d).mismatch, HasSubstr("As configured the predicted motion runs away"));
+  d.as_configured->error = 0.018;
+  EXPECT_THAT(card_of(d).mismatch, Not(HasSubstr("As configured"))) << "hardly more than refitted";
+}
+
 TEST(CardTrust, IsInAGapWhereLostMotionIsMeasured) {
   Answer answer;
   answer.sentence = "The lost motion at zero torque is 30 mrad (95 %: 17 to 43); the gap is at most 43 mrad.";

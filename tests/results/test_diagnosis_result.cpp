@@ -46,6 +46,7 @@ DiagnosisResult sample() {
               kThird,
               {"amplitude_nm"}}};
   d.whole_run = WholeRun{0.4, kNaN, kThird};
+  d.as_configured = AsConfigured{kThird};
   d.exhausted = d.better_swapped = true;
   d.budget.band_hz = 30.0, d.budget.nominal = kThird;
   d.budget.rungs = {{"cogging_torque", "cogging_torque", true, 1.0, kThird, 0.8, {0.7, 0.9}, 0.8, kThird}};
@@ -216,6 +217,8 @@ TEST(DiagnosisResult, ReadsBackWhatWasWritten) {
   ASSERT_TRUE(b.whole_run.has_value());
   EXPECT_EQ(b.whole_run->travel, kThird);
   EXPECT_TRUE(std::isnan(b.whole_run->after));
+  ASSERT_TRUE(b.as_configured.has_value());
+  EXPECT_EQ(b.as_configured->error, kThird);
   EXPECT_TRUE(b.exhausted && b.better_swapped);
   ASSERT_TRUE(b.model_gap.has_value());
   EXPECT_EQ(b.model_gap->origin, GapOrigin::kEstimated);

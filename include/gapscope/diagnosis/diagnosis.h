@@ -17,6 +17,7 @@
 #include "gapscope/diagnosis/last_resort.h"
 #include "gapscope/diagnosis/named_value.h"
 #include "gapscope/diagnosis/next_experiment.h"
+#include "gapscope/diagnosis/whole_run.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit.h"
 
@@ -152,26 +153,6 @@ struct DiagnosisStep {
   std::vector<RankedEffect> ranking;
 };
 
-/// A held-out recording beside the model under the drive's controller: the command goes in, the position
-/// comes out.
-struct ClosedLoopRun {
-  std::string file;
-  double before = kNaN, after = kNaN;  ///< rms of the position error, all the way [rad]
-};
-
-/// What users of a drive see that holds a position.
-struct ClosedLoop {
-  double before = kNaN, after = kNaN;  ///< rms over all recordings [rad]; NaN: the motion diverges
-  std::vector<ClosedLoopRun> recordings;
-};
-
-/// The model simulated freely through whole held-out recordings, from their first state on: how far it ends
-/// up from them at most. NaN: the motion diverges.
-struct WholeRun {
-  double before = kNaN, after = kNaN;  ///< largest error, without and with what was added [rad]
-  double travel = kNaN;                ///< of the recording in which the former is [rad]
-};
-
 /// Errors beside one held-out recording, for figures. Columns of equal length.
 struct MismatchTrace {
   std::string file;
@@ -212,7 +193,8 @@ struct Diagnosis {
   std::optional<ModelGap> model_gap;  ///< nothing: not told
   /// What the fitted recordings leave open of the held-out motion: standard deviation of the prediction [rad]
   double undetermined = kNaN;
-  std::optional<WholeRun> whole_run;  ///< nothing: not told
+  std::optional<WholeRun> whole_run;          ///< nothing: not told
+  std::optional<AsConfigured> as_configured;  ///< nothing: the configuration leaves numbers to the fit
   ErrorBudget budget;
   std::vector<MismatchMeasure> measures;
   std::vector<RankedEffect> ranking;     ///< first step, best first
