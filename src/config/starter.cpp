@@ -253,8 +253,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     starter.spoiling.push_back(f.rule + ": " + f.found + " -> " + f.advice);
     out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back());
   }
-  const std::string& named = known.name.empty() ? recording : known.name;
-  out.entry("name", plain_name(nominal ? nominal->joint : named), "of the report: reports/<name>");
+  const std::string& named = !known.name.empty() ? known.name : nominal ? nominal->joint : recording;
+  out.entry("name", plain_name(named), "of the report: reports/<name>");
   write_recording(out, folder, config, irregular, starter.order);
   write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
   if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);

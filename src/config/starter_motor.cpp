@@ -175,11 +175,20 @@ void write_friction(YamlWriter& out, const Begin& begin, const std::string& unit
     write_effect(out, "motor_coulomb_friction", {{"level_nm", level}}, of);
 }
 
+/// A file of one joint has its motor in the armature: with a gap, what is behind that is the load.
+void part_armature(JointNumbers& n) {
+  const double armature = n.inertia - n.body_inertia;
+  if (!n.load_joint.empty() || !(armature > 0.0) || !(n.body_inertia > 0.0)) return;
+  n.load_inertia = n.body_inertia, n.inertia = armature;
+  n.notes.push_back("the motor has the armature alone, and the load the inertia of the body");
+}
+
 }  // namespace
 
 void fit_to_structure(Begin& begin, StarterModel structure) {
   constexpr double kMostAsymmetric = 0.99;  // of friction_asymmetry
   JointNumbers& n = begin.numbers;
+  if (structure == StarterModel::kGap) part_armature(n);
   const auto refuse = [&](double& torque, const char* why) {
     if (torque != 0.0)
       n.notes.push_back(fmt::format("not taken: the constant torque {:.4g}, {}", torque, why));

@@ -128,14 +128,17 @@ TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
   const auto init = place.run("init r.csv --from robot.xml --joint elbow -o drive.yaml");
   EXPECT_EQ(init.status, 0) << init.err;
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
-  EXPECT_THAT(yaml, HasSubstr("joint elbow of robot.xml"));
   EXPECT_THAT(yaml,
               HasSubstr("torque_constant: 0.172  # N m per unit of u; of joint elbow; every number that is "
                         "fitted goes in proportion to it"));
-  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.003, estimate: true}"));
+  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.002, estimate: true}")) << "the armature";
+  EXPECT_THAT(yaml, HasSubstr("mass_ratio: {value: 0.5, estimate: true}")) << "the body behind the gap";
   EXPECT_THAT(yaml, HasSubstr("motor_damping: {value: 0.05, estimate: true}"));
   EXPECT_THAT(yaml, HasSubstr("- motor_coulomb_friction: {level_nm: {value: 0.02, estimate: true}}"));
   EXPECT_EQ(place.run("fit drive.yaml -o report").status, 0);
+  place.run("init r.csv --model one_body --from robot.xml --joint elbow -o one.yaml");
+  EXPECT_THAT(testing::text_of(place.folder() / "one.yaml"),
+              HasSubstr("motor_inertia: {value: 0.003, estimate: true}"));
   EXPECT_THAT(place.run("init r.csv --from robot.xml --joint knee -o d.yaml").err,
               HasSubstr("has no joint 'knee'"));
   EXPECT_EQ(place.run("init r.csv --from robot.xml -o d.yaml").status, 2);
@@ -156,7 +159,7 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
   const auto init = place.run(from + "--input-unit A -o drive.yaml");
   EXPECT_EQ(init.status, 0) << init.err;
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
-  EXPECT_THAT(yaml, HasSubstr("name: elbow  #"));
+  EXPECT_THAT(yaml, HasSubstr("name: drive  #"));
   EXPECT_THAT(yaml, HasSubstr("- load_unbalance: {amplitude_nm: {value: 0.0589, estimate: true}, phase_rad: "
                               "{value: 0, estimate: true}}"));
   EXPECT_THAT(yaml, HasSubstr("torque_constant: {value: 1, guess: true}"));
@@ -167,7 +170,7 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
                                 "the input is in A, not in N m"));
   }
   EXPECT_THAT(init.out, HasSubstr("gapscope diagnose drive.yaml"));
-  EXPECT_THAT(init.out, HasSubstr("gapscope export reports/elbow --to mjcf -o elbow_mjcf --into robot.xml "
+  EXPECT_THAT(init.out, HasSubstr("gapscope export reports/drive --to mjcf -o drive_mjcf --into robot.xml "
                                   "--joint elbow\n"));
   EXPECT_EQ(place.run(from + "-o torque.yaml").status, 0);
   EXPECT_THAT(testing::text_of(place.folder() / "torque.yaml"), HasSubstr("torque_constant: 1  #"));
