@@ -238,14 +238,14 @@ std::string refitted_words(const Diagnosis& d, Coordinates coordinates, std::siz
 }
 
 std::string briefly_refitted(const CardFacts& f) {
-  constexpr std::size_t kMost = kToldNumbers - 1;
   if (f.diagnosis == nullptr || f.diagnosis->stopped) return "";
   std::vector<std::string> told;
   const std::vector<Change> changes = changes_of(*f.diagnosis, f.coordinates);
-  for (const Change& c : changes)
-    if (told.size() < kMost) told.push_back(without_asides(c.name + " " + c.words));
+  const std::size_t most = changes.size() > kToldNumbers + 1 ? kToldNumbers : changes.size();
+  for (std::size_t i = 0; i < most; ++i)
+    told.push_back(without_asides(changes[i].name + " " + changes[i].words));
   if (told.empty()) return "";
-  if (changes.size() > kMost) told.push_back(fmt::format("{} more", changes.size() - kMost));
+  if (changes.size() > most) told.push_back(fmt::format("{} more", changes.size() - most));
   return " Numbers that the fit has changed: " + enumerated(told) + ".";
 }
 

@@ -29,10 +29,10 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
-  if (!denser_than_chance(place.mode[phase])) return "";
+  const MapShare& m = place.mode[phase];
+  if (!denser_than_chance(m) || !(m.share - m.expected > kRule.part)) return "";
   return fmt::format("{} ({:.0f} % of the squared correcting {} in {:.0f} % of the time)", kWhere[phase],
-                     100.0 * place.mode[phase].share, coordinates.torque_word(),
-                     100.0 * place.mode[phase].expected);
+                     100.0 * m.share, coordinates.torque_word(), 100.0 * m.expected);
 }
 
 /// Of the one in which it is denser than the time that it takes, be it the smaller share; where neither is,
