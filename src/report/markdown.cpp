@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "report/diagnosis_words.h"
 #include "report/rich_text.h"
@@ -129,10 +130,16 @@ std::string use_of(const GapEvent& e) {
   return e.periods > 1 ? fmt::format("yes: mean of {} periods", e.periods) : "yes";
 }
 
-/// How many of the passages cannot be in the table, as only their impact was seen.
-std::string without_begin(std::size_t count) {
+/// How many of the passages cannot be in the table, as only their impact was seen, and why that is of most.
+std::string without_begin(const std::vector<GapEvent>& all) {
+  std::map<std::string, std::size_t> reasons;
+  std::size_t count = 0;
+  for (const GapEvent& e : all)
+    if (!std::isfinite(e.t1)) ++count, ++reasons[e.remark];
   if (count == 0) return "";
-  return fmt::format("\n{} without a begin (t1) {} in `result.json`.\n", counted(count, "impact"),
+  const auto& [why, often] = *std::ranges::max_element(reasons, {}, [](const auto& r) { return r.second; });
+  return fmt::format("\n{} without a begin t1{} {} in `result.json`.\n", counted(count, "impact"),
+                     why.empty() ? "" : (often < count ? " (most: " : " (") + why + ")",
                      count == 1 ? "is" : "are");
 }
 
@@ -143,7 +150,7 @@ std::string passage_table(const RunResult& run) {
   for (const GapEvent& e : run.model_free->events)
     if (std::isfinite(e.t1)) events.push_back(e);
   const std::size_t begun = events.size();
-  if (events.empty()) return "\n## Passages of the gap\n" + without_begin(run.model_free->events.size());
+  if (events.empty()) return "\n## Passages of the gap\n" + without_begin(run.model_free->events);
   const bool several = run.recordings.size() > 1;
   double largest = 0.0;
   for (const GapEvent& e : events)
@@ -153,10 +160,8 @@ std::string passage_table(const RunResult& run) {
   };
   std::string text = fmt::format(
       "\n## Passages of the gap\n\nx1 from the loss of contact at t1 to the impact at t2; 2β is what each "
-      "tells of "
-      "the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard error | "
-      "used "
-      "|\n|{}---|---|---|---|---|---|---|\n",
+      "tells of the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard "
+      "error | used |\n|{}---|---|---|---|---|---|---|\n",
       begun > kTablePassages
           ? fmt::format(" The first {} of {}; `result.json` has all.", kTablePassages, begun)
           : "",
@@ -167,7 +172,7 @@ std::string passage_table(const RunResult& run) {
                         e.t1, e.t2, e.direction > 0 ? "rises" : "falls", length(std::abs(e.x1_t2 - e.x1_t1)),
                         length(e.accepted ? e.gap : kNaN), length(e.accepted ? e.std : kNaN), use_of(e));
   }
-  return text + without_begin(run.model_free->events.size() - begun);
+  return text + without_begin(run.model_free->events);
 }
 
 /// Of a reference that the diagnosis has replaced.

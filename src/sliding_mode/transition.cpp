@@ -27,7 +27,7 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kSmallRise:
       return "too few encoder quanta between reversal and impact";
     case Refusal::kLoadHits:
-      return "the input did not drive the motor into the gap when it was hit";
+      return "the load drove the motor at the impact";
     case Refusal::kNoImpactFit:
       return "no kink of x1 at the impact";
     case Refusal::kNoRelease:
