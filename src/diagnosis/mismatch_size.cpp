@@ -86,6 +86,16 @@ double judged_floor(const Study& study) {
                                : pooled_free_floor(held);
 }
 
+namespace {
+
+/// Whether a model leaves clearly less than the drive is taken to vary by itself: then it does not. Where x1
+/// slides from period to period, what repeats with the angle reads as if it did not repeat.
+bool is_refuted(const Study& study, const ScoredModel& after) {
+  return median_size(after.windows.*judged_windows(study)) * kRule.floor_ratio < 1.0;
+}
+
+}  // namespace
+
 MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after) {
   const HeldOut& held = study.held_out;
   const bool predicted = study.repeats_badly();
@@ -97,14 +107,15 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
       predicted ? fmt::format("prediction of an observer at {:g} Hz, median over windows of the rms",
                               study.observer_hz)
                 : fmt::format("free run restarted every {:.3g} s, median over windows of the rms", restart);
-  size.floor = judged_floor(study);
-  const double b = median_size(before.windows.*windows), a = median_size(after.windows.*windows);
-  size.before = size.floor * b;
-  size.after = size.floor * a;
+  size.before = judged_floor(study) * median_size(before.windows.*windows);
+  size.after = judged_floor(study) * median_size(after.windows.*windows);
+  const bool repeats = predicted && !is_refuted(study, after);
+  size.floor = predicted && !repeats ? encoder : judged_floor(study);
+  const double b = size.before / size.floor, a = size.after / size.floor;
   const bool noisy = is_open_by_supply(held) || encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
-  size.floor_from = predicted ? FloorSource::kRepeatability
-                    : noisy   ? FloorSource::kNoise
-                              : FloorSource::kEncoder;
+  size.floor_from = repeats ? FloorSource::kRepeatability
+                    : noisy ? FloorSource::kNoise
+                            : FloorSource::kEncoder;
   size.floor_of = floor_words(held, size.floor_from);
   size.shrink = shrink_of(b, a);
   if (&after != &before) size.shrink_ci95 = shrink_interval(b, size.shrink);
@@ -149,7 +160,9 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
                            unit * median_size(a.*squares), floor};
   };
   const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kMeasure.slow_hz, dt);
-  const double fast_floor = std::max(encoder * noise_gain(kMeasure.fast_hz, dt), held.innovation_repeats);
+  const bool refuted = encoder * median_size(a.fast) * kRule.floor_ratio < held.innovation_repeats;
+  const double fast_floor =
+      std::max(encoder * noise_gain(kMeasure.fast_hz, dt), refuted ? 0.0 : held.innovation_repeats);
   // The correcting torque is that observer's and goes with what it fails to predict: so does its floor.
   return {
       row(fmt::format("free run restarted every {:.3g} s", dt * static_cast<double>(held.restart(0))), free,

@@ -142,6 +142,12 @@ std::string ranked_text(double share, double reach) {
   return tick_label(share, reach < kSmallShares ? 3 : 2);
 }
 
+/// The floor of the ranking, which stands though what was added may have refuted a repetition.
+const char* ranked_by(const MismatchSize& size) {
+  return size.measure.starts_with("prediction") ? floor_name(FloorSource::kRepeatability)
+                                                : floor_name(size.floor_from);
+}
+
 /// How far the axis of the shares goes: to the floor, or, where the best candidate is far from it, to that.
 double ranked_reach(const std::vector<RankedEffect>& ranking, std::size_t shown) {
   double best = 0.0;
@@ -186,11 +192,8 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   panel.title = "Each alone, free run, first step";
   if (shown < ranking.size()) panel.title += fmt::format(": {} of {}", shown, ranking.size());
   const double reach = ranked_reach(ranking, shown);
-  panel.x = {"share of the way to the " + std::string(floor_name(r.diagnosis.mismatch.floor_from)),
-             "",
-             {-0.25 * reach, 1.3 * reach},
-             {},
-             {}};
+  const char* const floor = ranked_by(r.diagnosis.mismatch);
+  panel.x = {"share of the way to the " + std::string(floor), "", {-0.25 * reach, 1.3 * reach}, {}, {}};
   Series s{"", {kBlue, 4.0, {}}, {}, {}};
   s.joined = false, s.marker = Marker::kDisc, s.stems = true;
   for (std::size_t i = 0; i < shown; ++i) {
@@ -203,8 +206,7 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
   }
   panel.series.push_back(s);
   panel.x_marks.push_back({0.0, guide_style(), ""});
-  if (1.3 * reach > 1.0)
-    panel.x_marks.push_back({1.0, guide_style(), floor_name(r.diagnosis.mismatch.floor_from)});
+  if (1.3 * reach > 1.0) panel.x_marks.push_back({1.0, guide_style(), floor});
   panel.height = 80.0 + 70.0 * static_cast<double>(s.x.size());
   figure.panels.push_back(panel);
   figure.reading =
