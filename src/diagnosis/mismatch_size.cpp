@@ -90,9 +90,7 @@ namespace {
 
 /// Whether a model leaves clearly less than the drive is taken to vary by itself: then it does not. Where x1
 /// slides from period to period, what repeats with the angle reads as if it did not repeat.
-bool is_refuted(const Study& study, const ScoredModel& after) {
-  return median_size(after.windows.*judged_windows(study)) * kRule.floor_ratio < 1.0;
-}
+bool refutes(double left, double varies) { return left * kRule.floor_ratio < varies; }
 
 }  // namespace
 
@@ -109,7 +107,7 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
                 : fmt::format("free run restarted every {:.3g} s, median over windows of the rms", restart);
   size.before = judged_floor(study) * median_size(before.windows.*windows);
   size.after = judged_floor(study) * median_size(after.windows.*windows);
-  const bool repeats = predicted && !is_refuted(study, after);
+  const bool repeats = predicted && !refutes(size.after, judged_floor(study));
   size.floor = predicted && !repeats ? encoder : judged_floor(study);
   const double b = size.before / size.floor, a = size.after / size.floor;
   const bool noisy = is_open_by_supply(held) || encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
@@ -160,7 +158,7 @@ std::vector<MismatchMeasure> measures_of(const Study& study, const std::vector<P
                            unit * median_size(a.*squares), floor};
   };
   const double slow_floor = study.repeats_badly() ? kNaN : encoder * noise_gain(kMeasure.slow_hz, dt);
-  const bool refuted = encoder * median_size(a.fast) * kRule.floor_ratio < held.innovation_repeats;
+  const bool refuted = refutes(encoder * median_size(a.fast), held.innovation_repeats);
   const double fast_floor =
       std::max(encoder * noise_gain(kMeasure.fast_hz, dt), refuted ? 0.0 : held.innovation_repeats);
   // The correcting torque is that observer's and goes with what it fails to predict: so does its floor.

@@ -59,19 +59,24 @@ bool leaves_table(const Study& study, const Diagnosis& d) {
 
 }  // namespace
 
-StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
+WholeDiagnosis diagnosed(const blind::BlindPair& pair, const ReferenceModel& sheet, std::uint64_t seed) {
   DiagnosisOptions options;
   options.threads = 1;
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = thread_seconds();
-  const Diagnosis d = diagnose(train, held, pair.sheet, options);
-  StudyRow row;
+  WholeDiagnosis whole{diagnose(train, held, sheet, options), {}};
+  StudyRow& row = whole.row;
   row.seconds = thread_seconds() - begin;
   row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
   row.severity = pair.severity;
-  row.verdict = to_string(d.verdict);
-  row.before = d.mismatch.before / d.mismatch.floor;
-  row.group = static_cast<int>(d.effects.size());
+  row.verdict = to_string(whole.diagnosis.verdict);
+  row.before = whole.diagnosis.mismatch.before / whole.diagnosis.mismatch.floor;
+  row.group = static_cast<int>(whole.diagnosis.effects.size());
+  return whole;
+}
+
+StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
+  auto [d, row] = diagnosed(pair, pair.sheet, seed);
   row.details =
       fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.after / d.mismatch.floor);
   if (!d.added.empty()) row.details += "; " + added_in_words(d) + ";" + told_numbers_in_words(pair.drawn, d);
@@ -81,6 +86,7 @@ StudyRow examine_laws(const blind::BlindPair& pair, std::uint64_t seed) {
   row.in_group = law.variable == true_variable(pair.effect);
   row.shrink = law.shrink;
   const Recording last = pair.next();
+  const DiagnosisOptions options;
   const Study next_one = next_study(pair, last, options);
   const double next = next_shrink(next_one, d);
   row.covered = !std::isfinite(next) || !std::isfinite(law.shrink_ci95.low)   ? "-"

@@ -2,8 +2,16 @@
 
 #include "blind/blind_pair.h"
 #include "diagnosis/study_row.h"
+#include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::test {
+
+/// What one says, and the columns that do not hang on the kind of study: `before` and `group` as below.
+struct WholeDiagnosis {
+  Diagnosis diagnosis;
+  StudyRow row;
+};
+WholeDiagnosis diagnosed(const blind::BlindPair& pair, const ReferenceModel& sheet, std::uint64_t seed);
 
 /// The whole diagnosis of a drive that lacks nothing or something outside the catalogue, laws of last resort
 /// included.

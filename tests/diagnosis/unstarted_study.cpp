@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "gapscope/diagnosis/diagnosis.h"
-#include "support/thread_time.h"
+#include "diagnosis/law_study.h"
 
 namespace gapscope::test {
 namespace {
@@ -20,19 +19,8 @@ ReferenceModel without_starts(ReferenceModel sheet) {
 }  // namespace
 
 StudyRow examine_unstarted(const blind::BlindPair& pair, std::uint64_t seed) {
-  DiagnosisOptions options;
-  options.threads = 1;
-  const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
-  const double begin = thread_seconds();
-  const Diagnosis d = diagnose(train, held, without_starts(pair.sheet), options);
-  StudyRow row;
-  row.seconds = thread_seconds() - begin;
-  row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;
-  row.severity = pair.severity;
-  row.verdict = to_string(d.verdict);
-  row.before = d.mismatch.before / d.mismatch.floor;
+  auto [d, row] = diagnosed(pair, without_starts(pair.sheet), seed);
   row.shrink = d.mismatch.shrink;
-  row.group = static_cast<int>(d.effects.size());
   row.in_group = std::ranges::find(d.group, pair.effect) != d.group.end();
   const double gap = pair.truth.parameters[place::kGap].value;
   row.details = fmt::format("[{}] leaves {:.3g}", fmt::join(d.effects, " "), d.mismatch.remains);
