@@ -272,8 +272,10 @@ std::string variable_of(const EffectEntry& entry) {
   }
 }
 
-double lead_over(const LawSearch& law, const ScoredModel& model) {
-  return full_score(law.wider ? fitted_and_judged(*law.wider, model) : model) - full_score(law.after);
+Lead lead_over(const LawSearch& law, const ScoredModel& model) {
+  const ScoredModel other = law.wider ? fitted_and_judged(*law.wider, model) : model;
+  return {full_score(other) - full_score(law.after),
+          law.after.fitted.mean_cost < kRule.asked_for * other.fitted.mean_cost};
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {

@@ -32,9 +32,15 @@ std::string variable_of(const EffectEntry& entry);
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model,
                                             bool drive_known = false);
 
-/// S by which a law does better than a model, all that was estimated of effects and laws counted, by what
-/// judges the law.
-double lead_over(const LawSearch& law, const ScoredModel& model);
+/// What a law has ahead of a model.
+struct Lead {
+  double score =
+      -kInfinity;  ///< S, all that was estimated of effects and laws counted, by what judges the law
+  bool was_asked_for = false;  ///< it leaves less of what was fitted, too: ahead on the rest alone is luck
+
+  bool is_clear() const { return was_asked_for && score > kRule.tells_apart; }
+};
+Lead lead_over(const LawSearch& law, const ScoredModel& model);
 
 /// As the report tells it.
 LastResortLaw told(const Study& study, const LawSearch& found);

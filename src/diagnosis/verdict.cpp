@@ -147,8 +147,8 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   const ScoredModel& nominal = nominal_of(found, added);
   const bool at_end = at_floor(added.after) || added.explained;
   const auto instead = at_end && !may_be_pieces(added) ? std::nullopt : search_last_resort(study, nominal);
-  const double better = instead ? lead_over(*instead, added.after) : -kInfinity;
-  if (better > kRule.tells_apart || (at_end && instead && at_floor(instead->after))) {
+  const Lead lead = instead ? lead_over(*instead, added.after) : Lead();
+  if (lead.is_clear() || (at_end && instead && at_floor(instead->after))) {
     Diagnosis d = report_back(study, found, {});
     tell_law(study, instead, d);
     return d;
@@ -157,7 +157,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   const auto on_top = search_last_resort(study, added.after);
   const bool another =
       !at_end && instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
-  if ((another && better > -kRule.indistinct) || (on_top && continues_one(*on_top, added)))
+  if ((another && lead.score > -kRule.indistinct) || (on_top && continues_one(*on_top, added)))
     open_all_causes(d, study.options.coordinates);
   tell_law(study, on_top, d);
   return d;
@@ -191,12 +191,11 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
   if (added.accepted) return report_effects(study, found, added);
   const bool helped = explains && best_helps(study, found);
   const auto law = lacks_nothing(found) ? std::nullopt : search_last_resort(study, found.before);
+  const Lead lead = law && !found.candidates.empty() ? lead_over(*law, found.candidates.front()) : Lead();
   // A named effect that does nearly as well says more.
-  const bool beaten =
-      law && !found.candidates.empty() && lead_over(*law, found.candidates.front()) < kRule.tells_apart;
-  if (helped && (beaten || !law)) return report_help(study, found);
+  if (helped && !lead.is_clear()) return report_help(study, found);
   Diagnosis d = report_back(study, found, added);
-  if (!beaten) tell_law(study, law, d);
+  if (found.candidates.empty() || !(lead.score < kRule.tells_apart)) tell_law(study, law, d);
   return d;
 }
 

@@ -80,6 +80,26 @@ ScoredModel with_windows(const std::vector<double>& sizes) {
   return model;
 }
 
+TEST(LastResort, ALawThatLeavesMoreOfWhatWasFittedHasNoClearLead) {
+  const auto leaving = [](double size) {
+    ScoredModel model = with_windows(std::vector<double>(20, size));
+    model.windows.innovation = model.windows.free;
+    return model;
+  };
+  LawSearch law;
+  law.after = leaving(10.0);
+  ScoredModel effects = leaving(14.0);
+  law.after.fitted.mean_cost = 300.0, effects.fitted.mean_cost = 320.0;
+  const Lead ahead = lead_over(law, effects);
+  EXPECT_NEAR(ahead.score, 2.0 * std::log(1.4), 0.02);
+  EXPECT_TRUE(ahead.is_clear());
+  law.after.fitted.mean_cost = 330.0;
+  EXPECT_FALSE(lead_over(law, effects).is_clear()) << "what it has ahead is luck of what was held out";
+  EXPECT_EQ(lead_over(law, effects).score, ahead.score);
+  law.after.fitted.mean_cost = 300.0;
+  EXPECT_FALSE(lead_over(law, leaving(11.0)).is_clear());
+}
+
 TEST(LastResort, ALawThatFailsInAFewWindowsMayFailOnTheNextRecording) {
   const DiagnosisOptions options;
   const Study study{{}, {}, {}, {}, kMeasure.slow_hz, 0.0, {}, options};
