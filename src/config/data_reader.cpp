@@ -76,11 +76,17 @@ std::vector<RecordedFile> read_files(const Value& value, const std::string& fold
                                      std::set<std::string>& seen) {
   const std::vector<Value> items = value.is_list() ? value.items() : std::vector<Value>{value};
   if (items.empty()) value.fail("is an empty list, expected a file or a list of files");
+  const std::set<std::string> before = seen;
   std::vector<RecordedFile> files;
   for (const Value& item : items) {
     files.push_back(read_file(item, folder));
-    if (!seen.insert(files.back().path).second)
-      item.fail(fmt::format("names {} a second time, expected each recording once", files.back().given));
+    const RecordedFile& file = files.back();
+    if (before.contains(file.path))
+      item.fail(
+          fmt::format("names {}, which recording names above, too, expected another file (--set {}=FILE)",
+                      file.given, value.path()));
+    if (!seen.insert(file.path).second)
+      item.fail(fmt::format("names {} a second time, expected each recording once", file.given));
   }
   return files;
 }

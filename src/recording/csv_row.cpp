@@ -110,6 +110,19 @@ std::string CsvRow::there() const {
   return fmt::format("{}{}", fmt::join(names, ", "), fields_.size() > kMost ? ", ..." : "");
 }
 
+/// How the name of a missing column is declared: of the one alone where the two others are there.
+std::string CsvRow::how_declared(const std::string& name) const {
+  const std::pair<const char*, const std::string*> three[] = {
+      {"time", &columns_.time}, {"input", &columns_.input}, {"position", &columns_.position}};
+  const auto missing = [&](const auto& column) {
+    return std::ranges::find(fields_, *column.second) == fields_.end();
+  };
+  if (std::ranges::count_if(three, missing) == 1)
+    for (const auto& [role, column] : three)
+      if (*column == name) return fmt::format("recording: columns: {0}, or --{0}", role);
+  return "recording: columns, or --time, --input, --position";
+}
+
 /// Place of a column in the header; -1 if it is not there and need not be.
 int CsvRow::place(const std::string& name, bool required) const {
   const auto found = std::find(fields_.begin(), fields_.end(), name);
@@ -125,7 +138,7 @@ int CsvRow::place(const std::string& name, bool required) const {
         of_motor                 ? ", perhaps x1 here (--position x1),"
         : meant == fields_.end() ? ""
                                  : fmt::format(", perhaps {} here,", shown(*meant)),
-        "recording: columns, or --time, --input, --position"));
+        how_declared(name)));
   }
   if (std::find(found + 1, fields_.end(), name) != fields_.end())
     fail(fmt::format("the column {} is there twice, expected it once", shown(name)));

@@ -48,6 +48,7 @@ class CsvRow {
   std::string wanted() const;
   std::string wanted_with(const std::string& name) const;
   std::string there() const;
+  std::string how_declared(const std::string& name) const;
   double number(int place, const std::string& column, const UnitScale& scale);
   std::string_view with_decimal_point(std::string_view text, const std::string& column);
 

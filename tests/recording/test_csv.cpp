@@ -190,9 +190,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCsv{"utf_16", std::string("\xFF\xFEt\0,\0u\0\n\0", 10), "r.csv:1: is text in UTF-16"},
         BadCsv{"returns_alone", "t,u,x1\r0,0,0\r", "r.csv:1: ends its lines with carriage returns alone"},
         BadCsv{"no_text", std::string("PK\x03\x04\0\n", 6), "r.csv:1: is no text"},
-        BadCsv{"missing_column", "# c\nt,u,y\n" + rows(60),
-               "r.csv:2: there is no column 'x1' among 't', 'u', 'y', expected a header with "
-               "the columns t, u, x1"},
+        BadCsv{
+            "missing_column", "# c\nt,u,y\n" + rows(60),
+            "r.csv:2: there is no column 'x1' among 't', 'u', 'y', expected a header with "
+            "the columns t, u, x1; other names are declared (recording: columns: position, or --position)"},
         BadCsv{"units_in_brackets", "t [s],u [A],x1 [rad]\n" + rows(60),
                "other names, perhaps 't [s]' here, are declared (recording: columns, or --time"},
         BadCsv{"capitals", "t,u,X1\n" + rows(60), "perhaps 'X1' here"},
