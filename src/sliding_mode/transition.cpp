@@ -199,6 +199,18 @@ bool rested(const Reversal& r, const Release& release) {
   return r.last - r.first >= kRested && release.time > static_cast<double>(r.first + kRested);
 }
 
+/// A motor that its own friction held leaves from where it stood: in contact it could only drag the load
+/// along, and what has unwound of the contact until it moves is no more than that friction bends it by. Half
+/// of what the law of a moving motor makes of it is open.
+void begin_at_rest(Transition& t, const TransitionContext& context, const ImpactTime& impact,
+                   const Reversal& r) {
+  const double by_law = t.event.gap;
+  t.event.t1 = t.t1_first = context.trace.time(r.last);
+  t.event.x1_t1 = r.position;
+  t.event.gap = t.event.gap_uncorrected = t.event.direction * (impact.position - r.position);
+  t.half_width = std::max(t.half_width, 0.5 * std::abs(t.event.gap - by_law));
+}
+
 void read_release(Transition& t, const TransitionContext& context, const FlightLaw& law,
                   const ImpactTime& impact, const Reversal& reversal) {
   const Release release = find_release(context, law, impact);
@@ -207,10 +219,12 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
     return;
   }
   fill_event(t, context, impact, release);
-  if (!release.far_flank && !(t.dwell && rested(reversal, release))) {
+  const bool held = t.dwell && rested(reversal, release);
+  if (!release.far_flank && !held) {
     t.refusal = Refusal::kSameFlank;
     return;
   }
+  if (!release.far_flank) begin_at_rest(t, context, impact, reversal);
   if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
     t.refusal =
         Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average

@@ -89,6 +89,22 @@ TEST(TurnTime, AMotorThatItsOwnFrictionHoldsAtARestingLoadCrossesTheWholeGap) {
   }
 }
 
+/// The law of a moving motor leads such a one to a begin some time after it has broken loose: it read 12.81
+/// mrad.
+TEST(TurnTime, AMotorThatItsOwnFrictionHoldsLeavesFromWhereItStood) {
+  TestDrive drive{.m1 = 8.78e-4, .m2 = 7e-4, .Km = 0.172, .d1 = 0.02, .d2 = 0.03};
+  drive.Fc1 = 0.005, drive.Fc2 = 0.035, drive.k = 2400.0, drive.gap = 0.0134;
+  TestEncoder encoder;
+  encoder.rate = 2500.0, encoder.duration = 10.0, encoder.bits = 18;
+  const auto triangle = [](double t) { return 0.6 * (2.0 / kPi) * std::asin(std::sin(2.0 * kPi * t)); };
+  const TestRecording recording = record(drive, triangle, encoder);
+  const MotorTrace trace = recording.trace();
+  const GapEstimate g = detect_gap({&trace, 1});
+  ASSERT_EQ(g.verdict, GapVerdict::kBacklash) << g.reason.text();
+  EXPECT_NEAR(g.gap, drive.gap, 0.01 * drive.gap);
+  EXPECT_LT(g.ci95.high - g.ci95.low, 0.04 * drive.gap);
+}
+
 /// A heavy load coasts on, and the motor stands still in the gap for a tenth of a second: the torque pushes
 /// it back towards the load, but by less than its own friction, which shows no load there.
 TEST(TurnTime, AMotorThatItsOwnFrictionHoldsInTheGapIsNotAtItsLoad) {
