@@ -14,6 +14,7 @@
 #include "inspection/switched_off.h"
 #include "signals/encoder.h"
 #include "signals/local_motion.h"
+#include "signals/strokes.h"
 
 namespace gapscope {
 namespace {
@@ -23,9 +24,8 @@ constexpr double kMost = 0.99;  ///< of the samples: a spike is no motion
 /// 21 of 30 pairs of real recordings of one drive (a slide, a gear, eight preloads of a rig) have one that
 /// goes farther, with this one 25.
 constexpr double kClearlyMore = 1.25;
-/// A motion, as a share of the travel (a way back that is a reversal) and of the speed that few exceed; less
-/// is noise or a ripple [-]. With half and with double of it 17 and 16 of 21 real recordings count the same
-/// reversals, and 19 of 20 each stand still in most of their rows or not, as with this one.
+/// A motion, as a share of the speed that few exceed; less is noise or a ripple [-]. With half and with
+/// double of it 19 of 20 real recordings each stand still in most of their rows or not, as with this one.
 constexpr double kMotion = 0.05;
 
 double speed_of(const MotorTrace& r) {
@@ -57,23 +57,14 @@ double input_of(const MotorTrace& r) {
   return sizes.empty() ? 0.0 : quantile(std::move(sizes), kMost);
 }
 
-/// Changes of direction, each of at least kMotion of the travel.
-int reversals_of(const MotorTrace& r, double travel) {
-  int count = 0, direction = 0;
-  double turn = r.x1[0];  // the farthest position in the present direction
-  for (const double x : r.x1) {
-    if (direction * (x - turn) > 0.0) turn = x;
-    if (std::abs(x - turn) <= kMotion * travel) continue;
-    count += direction != 0;
-    direction = x > turn ? 1 : -1, turn = x;
-  }
-  return count;
+int reversals_of(const MotorTrace& r) {
+  return std::max(0, static_cast<int>(internal::signals::strokes(r.x1).size()) - 1);
 }
 
 MotionReach reach_of(const MotorTrace& r) {
   const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
   const double speed = speed_of(r);
-  return {*high - *low, speed, input_of(r), reversals_of(r, *high - *low), moving_of(r, speed)};
+  return {*high - *low, speed, input_of(r), reversals_of(r), moving_of(r, speed)};
 }
 
 MotorTrace rows_of(const MotorTrace& r, std::size_t from, std::size_t to) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
 #include "signals/local_motion.h"
+#include "signals/strokes.h"
 
 namespace gapscope::internal::signals {
 namespace {
@@ -36,6 +38,14 @@ double slope(const MotorTrace& r, std::size_t first, std::size_t n) {
     weight += t * t;
   }
   return sum / (weight * r.dt);
+}
+
+/// x1 without the straight line that it follows best [rad].
+std::vector<double> beside_a_line(const MotorTrace& r) {
+  const double speed = slope(r, 0, r.size());
+  std::vector<double> beside(r.x1.begin(), r.x1.end());
+  for (std::size_t i = 0; i < beside.size(); ++i) beside[i] -= speed * (r.time(i) - r.time(0));
+  return beside;
 }
 
 /// Torques beside the four of one body, each at every sample of one recording.
@@ -111,6 +121,7 @@ Solved<N> balanced(std::span<const MotorTrace> recordings, std::span<const Besid
   Matrix normal = Matrix::Zero();
   Vector right = Vector::Zero();
   double squares = 0.0, count = 0.0, brought = 0.0;
+  std::vector<double> ways;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const MotorTrace& r = recordings[k];
     Balance<N> b = balance_of<N>(r, beside[k]);
@@ -128,8 +139,10 @@ Solved<N> balanced(std::span<const MotorTrace> recordings, std::span<const Besid
     }
     const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
     body.travel = std::max(body.travel, *high - *low);
+    std::ranges::copy(strokes(beside_a_line(r)), std::back_inserter(ways));
     for (const double u : r.u) body.peak_input = std::max(body.peak_input, std::abs(u));
   }
+  body.stroke = ways.empty() ? body.travel : median(ways);
   body.speed = std::sqrt(squares / std::max(1.0, count));
   const Vector scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Matrix scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();

@@ -12,11 +12,14 @@ namespace gapscope::internal::signals {
 /// solved by least squares, so nothing is differentiated twice. In units of u; for starting points only. It
 /// reads u and x1 alone, but M, D and F are those of a drive: nothing for a detector that knows of none.
 struct OneBody {
-  double inertia = 0.0;     ///< M, of motor and load together [unit of u s²/rad]
-  double damping = 0.0;     ///< D [unit of u s/rad]
-  double friction = 0.0;    ///< F [unit of u]
-  double known = 0.0;       ///< K, that it takes for a torque known in N m [unit of u/(N m)]
-  double travel = 0.0;      ///< of x1, peak to peak, largest recording [rad]
+  double inertia = 0.0;   ///< M, of motor and load together [unit of u s²/rad]
+  double damping = 0.0;   ///< D [unit of u s/rad]
+  double friction = 0.0;  ///< F [unit of u]
+  double known = 0.0;     ///< K, that it takes for a torque known in N m [unit of u/(N m)]
+  double travel = 0.0;    ///< of x1, peak to peak, largest recording [rad]
+  /// Of x1 beside the straight line that it follows best, from one reversal to the next, median of all
+  /// recordings; what stands has the travel [rad]
+  double stroke = 0.0;
   double speed = 0.0;       ///< rms of w1 [rad/s]
   double peak_speed = 0.0;  ///< largest |w1| [rad/s]
   double peak_input = 0.0;  ///< [unit of u]

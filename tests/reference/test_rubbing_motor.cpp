@@ -38,6 +38,19 @@ TEST(RubbingMotor, ItsFrictionAndItsGapAreFoundWithoutAStart) {
   EXPECT_TRUE(contains(found, "motor_coulomb_friction.level_nm", 0.01));
 }
 
+/// A drive that turns on as it swings: its travel is no measure of its gap. Drawn by that, it was not found.
+TEST(RubbingMotor, AGapOfAHundredthOfASwingIsFoundInATravelOfMany) {
+  BlindRig rig = rig_with(0.01);
+  rig.drive.gap = 8e-3;
+  rig.excitation.offset = 0.4;
+  for (const double frequency : {1.0, 2.0}) {
+    rig.excitation.frequency = frequency;
+    const FitSummary found = fit_one(rig.recording(), with_friction(nothing_known()));
+    EXPECT_EQ(found.trust, FitTrust::kGood) << found.why.text();
+    EXPECT_NEAR(found.find("gap")->value, rig.drive.gap, 0.01 * rig.drive.gap);
+  }
+}
+
 /// Stiff teeth behind a small gap, in a motion of many times its width.
 TEST(RubbingMotor, AStiffContactIsFoundFromTheGapOfAnotherEstimate) {
   BlindRig rig = rig_with(0.02);
