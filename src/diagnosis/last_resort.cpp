@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/counted.h"
-#include "diagnosis/law_variants.h"
+#include "diagnosis/law_fit.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/step.h"
 #include "gapscope/base/interrupt.h"
@@ -14,132 +13,6 @@
 
 namespace gapscope::internal::diagnosis {
 namespace {
-
-ReferenceModel with_law(ReferenceModel model, const LawVariant& v) {
-  ModelEffect effect;
-  effect.entry = v.entry;
-  for (std::size_t i = 0; i < v.entry->parameters.size(); ++i) effect.parameters[i].value = 0.0;
-  effect.parameters[0].value = v.abscissa;
-  model.effects.push_back(effect);
-  return model;
-}
-
-double estimated_in(const ModelEffect& effect) {
-  return static_cast<double>(std::count_if(effect.parameters.begin(), effect.parameters.end(),
-                                           [](const ParameterSetting& p) { return p.estimate; }));
-}
-
-/// Of the law's parameters those count that are estimated.
-ScoredModel judged(const Study& study, const EffectEntry& entry, FittedModel fitted) {
-  ScoredModel j = judge(&entry, std::move(fitted), study.held_out, study.observer_hz);
-  if (std::isfinite(j.score))
-    j.score =
-        log_score(j.windows) + kMeasure.score_per_parameter * estimated_in(j.fitted.model.effects.back());
-  return j;
-}
-
-bool costs_less(const FittedModel& a, const FittedModel& b) { return a.mean_cost < b.mean_cost; }
-
-void keep_lower(FittedModel& best, FittedModel other) {
-  if (costs_less(other, best)) best = std::move(other);
-}
-
-FittedModel fit_from(const Study& study, const FittedModel& from, const reference::RefineEffort& effort) {
-  const reference::ModelFit fit(study.train, from.model, study.options.fit, study.observer_hz);
-  return fitted_at(fit, fit.refine_with_loads_placed(fit.point_of(from.model, from.starts), effort));
-}
-
-/// A law over a model: its levels, each as far as it has been fitted.
-class LawFit {
- public:
-  LawFit(const Study& study, const ScoredModel& before, const LawVariant& variant)
-      : study_(&study), variant_(variant), fitted_(variant.levels.size()) {
-    origin_ = before.fitted;
-    origin_.model = with_law(origin_.model, variant);
-  }
-
-  void tell(Counted& counted) const {
-    counted.begin(fmt::format("laying free-form laws over what remains: {}", variant_.entry->name));
-  }
-
-  /// The level that leaves least of what was fitted.
-  const FittedModel& closest() const { return *std::min_element(fitted_.begin(), fitted_.end(), costs_less); }
-
-  /// Every level on the numbers of a drive: without the law, and with that of the level before.
-  void race_on(const ReferenceModel& drive) {
-    FittedModel origin = origin_;
-    origin.model = with_drive(origin.model, drive);
-    FittedModel before;
-    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
-      FittedModel here = quickly(origin, i);
-      if (before.mean_cost < kInfinity) keep_lower(here, quickly(before, i));
-      keep_lower(fitted_[i], here);
-      before = std::move(here);
-    }
-  }
-
-  /// Level by level on the model's own drive, as long as what is held out asks for more.
-  void climb() {
-    FittedModel from = origin_;
-    double least = kInfinity;
-    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
-      FittedModel here = quickly(from, i);
-      if (!(here.mean_cost < kInfinity)) return;
-      const double score = judged(*study_, *variant_.entry, here).score;
-      if (!(score < least)) return;
-      least = score;
-      fitted_[i] = from = std::move(here);
-    }
-  }
-
-  /// Level by level to the end, until one explains what was fitted.
-  void refine() {
-    for (std::size_t i = 0; i < fitted_.size() && !finish_requested(); ++i) {
-      FittedModel& here = fitted_[i];
-      if (i > 0 && costs_less(fitted_[i - 1], here)) keep_lower(here, quickly(fitted_[i - 1], i));
-      if (!(here.mean_cost < kInfinity)) continue;
-      settle(here);
-      if (!(here.mean_cost < kExplained) && study_->observer_hz < kMeasure.fast_hz)
-        keep_lower(here, led_by_faster_observer(*study_, here));
-      if (here.mean_cost < kExplained) break;
-    }
-  }
-
-  /// With as many parameters as what is held out asks for.
-  ScoredModel best() const {
-    ScoredModel best;
-    for (const FittedModel& f : fitted_) {
-      if (!(f.mean_cost < kInfinity)) continue;
-      ScoredModel here = judged(*study_, *variant_.entry, f);
-      if (best.entry == nullptr || here.score < best.score) best = std::move(here);
-    }
-    return best;
-  }
-
- private:
-  /// Refines as long as a round takes what is worth having: a curve's values act on each other and on the
-  /// drive's numbers, and one round ends before they have settled.
-  void settle(FittedModel& here) const {
-    for (std::size_t round = 0; round < study_->effort.leaders; ++round) {
-      const double worth = (1.0 - kRule.part) * here.mean_cost;
-      keep_lower(here, fit_from(*study_, here, {}));
-      if (here.mean_cost < kExplained || !(here.mean_cost < worth)) return;
-    }
-  }
-
-  FittedModel quickly(FittedModel from, std::size_t level) const {
-    const LawLevel& l = variant_.levels[level];
-    auto& settings = from.model.effects.back().parameters;
-    settings[0].estimate = l.period;
-    for (std::size_t i = l.first; i <= l.last; ++i) settings[i].estimate = true;
-    return fit_from(*study_, from, study_->effort.quick);
-  }
-
-  const Study* study_;
-  LawVariant variant_;
-  FittedModel origin_;               ///< the model without the law
-  std::vector<FittedModel> fitted_;  ///< of each level
-};
 
 /// All laws over a model.
 struct FittedLaws {
@@ -157,15 +30,16 @@ std::vector<ScoredModel> ranked(const std::vector<LawFit>& laws) {
   return all;
 }
 
-std::vector<LawFit> laws_over(const Study& study, const ScoredModel& before) {
+std::vector<LawFit> laws_over(const Study& study, const LawWork& work, const ScoredModel& before) {
   std::vector<LawFit> laws;
-  for (const LawVariant& v : law_variants(study, before)) laws.emplace_back(study, before, v);
+  for (const LawVariant& v : law_variants(study, before)) laws.emplace_back(study, work, before, v);
   return laws;
 }
 
 /// On a drive that is known each law climbs by itself, and the best is refined to the end.
 FittedLaws laws_of_known_drive(const Study& study, const ScoredModel& before) {
-  std::vector<LawFit> laws = laws_over(study, before);
+  const LawWork work(study);
+  std::vector<LawFit> laws = laws_over(study, work, before);
   Counted counted(study.options.progress, laws.size());
   parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
     laws[i].tell(counted);
@@ -183,10 +57,11 @@ FittedLaws laws_of_known_drive(const Study& study, const ScoredModel& before) {
 
 /// All laws race from the fitted drive, which may have drifted to hide what is missing, and from others. The
 /// leader is refined first; the rest then begin on its drive, too, and where it does not explain what was
-/// fitted, they are refined as well, unless the work of the search is done.
+/// fitted, they are refined as well, unless the work is done.
 FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
                        const std::vector<ReferenceModel>& other_drives) {
-  std::vector<LawFit> laws = laws_over(study, before);
+  const LawWork work(study);
+  std::vector<LawFit> laws = laws_over(study, work, before);
   if (laws.empty()) return {};
   Counted counted(study.options.progress, 2 * laws.size());
   parallel_for(laws.size(), study.options.threads, [&](std::size_t i) {
@@ -200,7 +75,7 @@ FittedLaws fitted_laws(const Study& study, const ScoredModel& before,
   laws.front().tell(counted);
   laws.front().refine();
   FittedLaws found{{}, laws.front().closest()};
-  const bool ends = found.closest.mean_cost < kExplained || study.has_done_its_work();
+  const bool ends = found.closest.mean_cost < kExplained || work.is_done();
   parallel_for(laws.size() - 1, study.options.threads, [&](std::size_t i) {
     laws[i + 1].tell(counted);
     laws[i + 1].race_on(found.closest.model);
@@ -274,8 +149,8 @@ std::string variable_of(const EffectEntry& entry) {
 
 Lead lead_over(const LawSearch& law, const ScoredModel& model) {
   const ScoredModel other = law.wider ? fitted_and_judged(*law.wider, model) : model;
-  return {full_score(other) - full_score(law.after),
-          law.after.fitted.mean_cost < kRule.asked_for * other.fitted.mean_cost};
+  const double least = kRule.asked_for * other.fitted.mean_cost;
+  return {full_score(other) - full_score(law.after), law.after.fitted.mean_cost < least};
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {
