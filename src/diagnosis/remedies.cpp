@@ -4,7 +4,8 @@ namespace gapscope::internal::diagnosis {
 
 const std::map<std::string, std::string>& remedies() {
   static const std::string diagnose =
-      "Run `gapscope diagnose CONFIG`: it finds what the model lacks, such as friction or a delay.";
+      "Run `gapscope diagnose CONFIG`: it finds what the model still lacks, such as a delay, cogging or "
+      "another friction law.";
   static const std::string without =
       "Fit the model with its gap closed (`--set model.parameters.gap=0`, a compliant shaft) or as one body "
       "(`gapscope init --model one_body`), or record a motion that closes the contact on both sides.";
