@@ -1,7 +1,5 @@
 #include "diagnosis/last_resort.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -219,12 +219,13 @@ void read_release(Transition& t, const TransitionContext& context, const FlightL
     return;
   }
   fill_event(t, context, impact, release);
-  const bool held = t.dwell && rested(reversal, release);
-  if (!release.far_flank && !held) {
-    t.refusal = Refusal::kSameFlank;
-    return;
+  if (!release.far_flank) {
+    if (!t.dwell || !rested(reversal, release)) {
+      t.refusal = Refusal::kSameFlank;
+      return;
+    }
+    begin_at_rest(t, context, impact, reversal);
   }
-  if (!release.far_flank) begin_at_rest(t, context, impact, reversal);
   if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
     t.refusal =
         Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average

@@ -39,7 +39,7 @@ TEST(RubbingMotor, ItsFrictionAndItsGapAreFoundWithoutAStart) {
 }
 
 /// A drive that turns on as it swings: its travel is no measure of its gap. Drawn by that, it was not found.
-TEST(RubbingMotor, AGapOfAHundredthOfASwingIsFoundInATravelOfMany) {
+TEST(RubbingMotor, AGapIsFoundInATravelOfManySwings) {
   BlindRig rig = rig_with(0.01);
   rig.drive.gap = 8e-3;
   rig.excitation.offset = 0.4;
