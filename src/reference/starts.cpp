@@ -63,12 +63,18 @@ Interval draw_range(const FitProblem& problem, const Parameter& p, bool seeded) 
   return {p.start / factor, p.start * factor};
 }
 
+/// Where a number of the drive starts, which is its value if it is not searched.
+double drive_start(const FitProblem& problem, int number) {
+  const auto p = std::ranges::find(problem.parameters, drive_number(number), &Parameter::id);
+  return p->start;
+}
+
 /// A derived stiffness goes with the gap that was drawn: the wind-up of a contact is a part of its gap, of
 /// whatever travel.
 std::vector<double> drawn(const FitProblem& problem, bool seeded, std::mt19937_64& generator) {
   std::vector<double> q;
   double narrower = 1.0;  // the drawn gap than the derived one, which goes before
-  double motor = problem.inertia;
+  double motor = drive_start(problem, place::kMotorInertia);
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
     const Parameter& p = problem.free_parameter(i);
     const Interval range = draw_range(problem, p, seeded);

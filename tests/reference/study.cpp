@@ -8,7 +8,8 @@
 //   unknown       with them a dry friction of the motor, which these drives do not have: a configuration of
 //                 `gapscope init`
 //   rubs          the same, of motors with a dry friction of 2–20 % of the torque
-//   coasts        these, and friction and damping of the load from a hundredth on
+//   rotor         the same, where the inertia of the motor is known
+//   coasts        those of rubs, and friction and damping of the load from a hundredth on
 //   hard          those of rubs whose contact is 1 to 15 times as stiff and dissipates 1 to 8 times as much
 //   left_out      the motors of rubs by a model without their friction
 //   frictionless  the drives of unknown by that model
@@ -54,12 +55,14 @@ struct List {
   bool seeks_friction = false;  ///< and the model
   bool coasts = false;          ///< friction and damping of the load are small
   bool hard = false;            ///< the contact is stiffer and dissipates more
+  bool rotor = false;           ///< the inertia of the motor is known
 };
 constexpr List kLists[] = {{"recover"},
                            {"noise"},
                            {"quantiser"},
                            {"unknown", true, false, true},
                            {"rubs", true, true, true},
+                           {"rotor", true, true, true, false, false, true},
                            {"coasts", true, true, true, true},
                            {"hard", true, true, true, false, true},
                            {"left_out", true, true},
@@ -240,7 +243,8 @@ int main_study(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 36;
   const std::string list = argc > 3 ? argv[3] : "recover";
   const int asked = argc > 4 ? std::clamp(std::atoi(argv[4]), 1, kAll - 1) : 5;
-  const int free = list_called(list).unknown ? kAll : asked;
+  const List& called = list_called(list);
+  const int free = called.rotor ? kAll - 1 : called.unknown ? kAll : asked;
   const bool verbose = argc > 5 && std::atoi(argv[5]) > 0;
   const int jobs = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
   std::vector<FitOutcome> outcomes(static_cast<std::size_t>(count));
