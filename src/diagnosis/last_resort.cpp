@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/headline.h"
 #include "diagnosis/law_fit.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/step.h"
@@ -149,6 +150,15 @@ Lead lead_over(const LawSearch& law, const ScoredModel& model) {
   const ScoredModel other = law.wider ? fitted_and_judged(*law.wider, model) : model;
   const double least = kRule.asked_for * other.fitted.mean_cost;
   return {full_score(other) - full_score(law.after), law.after.fitted.mean_cost < least};
+}
+
+bool is_series_of(const LawSearch& law, const ModelEffect& effect) {
+  const ModelEffect& series = law.after.fitted.model.effects.back();
+  if (effect.entry == nullptr || series.entry->side != effect.entry->side) return false;
+  if (variable_of(*series.entry) != "position" || variable_of(*effect.entry) != "position") return false;
+  const double cycles = 2.0 * kPi / series.parameters.front().value, of_effect = cycles_of(effect);
+  const double whole = std::round(cycles / of_effect);
+  return whole >= 1.0 && std::abs(cycles - whole * of_effect) < kRule.part * of_effect;
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {

@@ -42,6 +42,11 @@ struct Lead {
 };
 Lead lead_over(const LawSearch& law, const ScoredModel& model);
 
+/// Whether a law is the series that an effect begins: of the same torque, on the same axis, over the
+/// position, by its period or a whole part of it. Then it says of the effect's shape what the effect's own
+/// form leaves out, and nothing against it.
+bool is_series_of(const LawSearch& law, const ModelEffect& effect);
+
 /// As the report tells it.
 LastResortLaw told(const Study& study, const LawSearch& found);
 

@@ -139,16 +139,24 @@ bool outlasts_motion(const AddedEffect& a, const Diagnosis& d) {
 
 namespace {
 
+/// Whether a law is the series of the only effect that was added: its shape, not another cause.
+bool tells_its_shape(const LawSearch& law, const Additions& added) {
+  const auto& effects = added.after.fitted.model.effects;
+  const auto only = std::ranges::find(effects, added.effects.front().entry, &ModelEffect::entry);
+  return added.effects.size() == 1 && only != effects.end() && is_series_of(law, *only);
+}
+
 /// Effects that were accepted. Where one free-form law on the nominal model does clearly better than all of
 /// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
 /// where one of another variable than the first does nearly as well, or one of a variable of theirs takes
-/// what they leave.
+/// what they leave. Neither holds of the series that the only effect begins.
 Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
   const bool at_end = at_floor(added.after) || added.explained;
   const auto instead = at_end && !may_be_pieces(added) ? std::nullopt : search_last_resort(study, nominal);
-  const Lead lead = instead ? lead_over(*instead, added.after) : Lead();
-  if (lead.is_clear() || (at_end && instead && at_floor(instead->after))) {
+  const bool against = instead && !tells_its_shape(*instead, added);
+  const Lead lead = against ? lead_over(*instead, added.after) : Lead();
+  if (lead.is_clear() || (at_end && against && at_floor(instead->after))) {
     Diagnosis d = report_back(study, found, {});
     tell_law(study, instead, d);
     return d;
@@ -156,8 +164,9 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
   Diagnosis d = report_back(study, found, added);
   const auto on_top = search_last_resort(study, added.after);
   const bool another =
-      !at_end && instead && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
-  if ((another && lead.score > -kRule.indistinct) || (on_top && continues_one(*on_top, added)))
+      !at_end && against && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
+  if ((another && lead.score > -kRule.indistinct) ||
+      (on_top && continues_one(*on_top, added) && !tells_its_shape(*on_top, added)))
     open_all_causes(d, study.options.coordinates);
   tell_law(study, on_top, d);
   return d;

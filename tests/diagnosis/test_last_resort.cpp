@@ -126,6 +126,29 @@ TEST(LastResort, ALawOfAnEffectsOwnVariableMakesTheEffectAPartOfIt) {
   EXPECT_TRUE(continues_one(law, added));
 }
 
+TEST(LastResort, ALawByTheirPeriodIsTheSeriesThatCogsBegin) {
+  const auto over = [](double cycles) {
+    LawSearch law;
+    law.after.entry = find_effect("position_torque");
+    law.after.fitted.model.effects.push_back(
+        {law.after.entry, {ParameterSetting::known(2.0 * kPi / cycles)}});
+    return law;
+  };
+  ModelEffect cogs{find_effect("cogging_torque"), {}};
+  cogs.parameters[1].value = 24.0;
+  EXPECT_TRUE(is_series_of(over(23.9), cogs));
+  EXPECT_TRUE(is_series_of(over(72.1), cogs)) << "its third harmonic";
+  EXPECT_FALSE(is_series_of(over(0.3), cogs)) << "over twice the travel";
+  EXPECT_FALSE(is_series_of(over(36.0), cogs));
+  ModelEffect ripple{find_effect("torque_ripple"), {}};
+  ripple.parameters[1].value = 24.0;
+  EXPECT_FALSE(is_series_of(over(24.0), ripple)) << "goes with the input";
+  LawSearch friction;
+  friction.after.entry = find_effect("friction_curve");
+  friction.after.fitted.model.effects.push_back({friction.after.entry, {}});
+  EXPECT_FALSE(is_series_of(friction, cogs));
+}
+
 TEST(LastResort, NothingIsLaidOverADriveThatLacksNothing) {
   EXPECT_FALSE(Searched(independent_plant::OutsideEffects{}).law);
 }
