@@ -9,6 +9,7 @@
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
 #include "signals/folding.h"
+#include "sliding_mode/deviations.h"
 #include "sliding_mode/informative.h"
 #include "sliding_mode/told_events.h"
 #include "sliding_mode/visible_gap.h"
@@ -26,7 +27,6 @@ constexpr double kFewStriking = 0.3;  ///< of the half periods
 /// gap multisine intervals hold 77 with 0.53, 76 with 0.43, 73 with 0.27; with 0.86 all hold and five are too
 /// wide to be told.
 constexpr double kSystematic = 0.53, kSystematicFine = 0.43;
-constexpr double kFineGap = 100.0;
 /// Standard deviation of a gap that a mean period shows, over that of one read from samples. Set on
 /// study_sliding_mode 2100001 200 gap sine (with sums of samples): with 1 intervals hold 19 of 23, with 1.25
 /// 18 of 19 (four are too wide to be told).
@@ -213,35 +213,18 @@ bool too_slow(const Pool& pool) {
          (refusal == Refusal::kContrast || refusal == Refusal::kNone);
 }
 
-/// Of what the standard deviation of an estimate is made [rad].
-struct Deviations {
-  double random, disagreement, systematic, sampling, noise;
-  double together() const {
-    return std::sqrt(random * random + disagreement * disagreement + systematic * systematic +
-                     sampling * sampling + noise * noise);
-  }
-};
-
 Deviations deviations(const Pool& pool, double gap, double disagreement) {
   const int only = only_direction(pool);
   // The passages of a mean period come again in each of its copies: they are no more witnesses for that.
   const double witnesses =
       static_cast<double>(gaps_of(pool, only).size()) / (pool.repeats ? signals::FoldedMotion::kTiles : 1.0);
   const bool coarse = gap < kFineGap * pool.quantum || median_of(pool, &Transition::hidden) > kSoft * gap;
-  return {scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0)), disagreement,
+  return {scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0)),
+          disagreement,
+          recordings_disagreement(pool.accepted),
           (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Transition::half_width),
-          0.25 * median_of(pool, &Transition::speed) * pool.dt, pool.noise};
-}
-
-/// What an interval that is too wide to be told is mostly made of. Where contact is lost and regained is read
-/// to a count or so, of which also the directions differ: twice as many counts in the gap halve it.
-Remark mostly(const Deviations& d, const Pool& pool, double gap, double excess) {
-  const double most = std::max({d.random, d.disagreement, d.systematic, d.sampling, d.noise});
-  const double counts = gap / pool.quantum;
-  if (most == d.random) return words::passages_differ();
-  if (most == d.sampling) return words::samples_apart();
-  if (counts < kFineGap) return words::few_counts(counts, excess * counts);
-  return most == d.disagreement ? words::directions_differ() : words::ends_uncertain();
+          0.25 * median_of(pool, &Transition::speed) * pool.dt,
+          pool.noise};
 }
 
 void fill_estimate(const Pool& pool, GapEstimate& estimate) {
@@ -259,7 +242,8 @@ void fill_estimate(const Pool& pool, GapEstimate& estimate) {
   const double share = kNormal95 * estimate.std / gap;
   if (share <= kWidest) return;
   estimate.verdict = GapVerdict::kInconclusive;
-  estimate.reason = words::gap_uncertain(gap, 100.0 * share, mostly(parts, pool, gap, share / kWidest));
+  estimate.reason =
+      words::gap_uncertain(gap, 100.0 * share, mostly(parts, gap / pool.quantum, share / kWidest));
   estimate.gap = estimate.std = kNaN;
   estimate.ci95 = {};
 }

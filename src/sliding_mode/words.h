@@ -42,6 +42,7 @@ Remark few_counts(double counts, double needed);
 Remark ends_uncertain();
 Remark passages_differ();
 Remark directions_differ();
+Remark recordings_differ();
 Remark samples_apart();
 Remark one_body(double mass_ratio, double half_periods);
 Remark only_large_gaps(double mass_ratio, double visible, double travel);

@@ -30,6 +30,10 @@ Remark directions_differ() {
           "rising and falling x1 read it differently; remove the offset of the excitation, or let the motion "
           "rest at its reversals"};
 }
+Remark recordings_differ() {
+  return {"recordings_differ",
+          "the recordings read it differently; read each by itself, and see what else differs between them"};
+}
 Remark samples_apart() {
   return {"samples_apart", "x1 moves far from one sample to the next at the impacts; sample faster"};
 }

@@ -173,6 +173,20 @@ TEST(Detector, SeveralRecordingsAreCombinedNotConcatenated) {
   EXPECT_NEAR(both.gap / 0.0188, 1.0, 0.03);
 }
 
+TEST(Detector, WhatRecordingsDisagreeByIsInTheIntervalOfBoth) {
+  const TestRecording a = paper_experiment(1), less = paper_experiment(2, 0.0, 0.0180),
+                      far = paper_experiment(2, 0.0, 0.0160);
+  const MotorTrace near[] = {a.trace("a.csv"), less.trace("b.csv")};
+  const GapEstimate both = detect_gap(near);
+  ASSERT_EQ(both.verdict, GapVerdict::kBacklash);
+  EXPECT_LT(both.ci95.low, 0.0180);
+  EXPECT_GT(both.ci95.high, 0.0188);
+  const MotorTrace apart[] = {a.trace("a.csv"), far.trace("b.csv")};
+  const GapEstimate neither = detect_gap(apart);
+  EXPECT_EQ(neither.verdict, GapVerdict::kInconclusive);
+  EXPECT_THAT(neither.reason.text(), HasSubstr("the recordings read it differently"));
+}
+
 TEST(Detector, DrivesWithoutAGapAreNeverReportedWithOne) {
   TestDrive rigid;
   rigid.m1 += rigid.m2, rigid.d1 += rigid.d2, rigid.Fc1 = rigid.Fc2, rigid.m2 = 0.0;

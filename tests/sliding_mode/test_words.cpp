@@ -43,6 +43,7 @@ std::vector<Remark> all_remarks() {
           words::ends_uncertain(),
           words::passages_differ(),
           words::directions_differ(),
+          words::recordings_differ(),
           words::samples_apart(),
           words::mean_of_periods(9),
           words::one_body(0.1, 12.0),
