@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/rigs.h"
+#include "reference/starts.h"
 
 namespace gapscope {
 namespace {
@@ -49,6 +50,22 @@ TEST(RubbingMotor, AGapIsFoundInATravelOfManySwings) {
     EXPECT_EQ(found.trust, FitTrust::kGood) << found.why.text();
     EXPECT_NEAR(found.find("gap")->value, rig.drive.gap, 0.01 * rig.drive.gap);
   }
+}
+
+/// The balance tells the inertia of motor and load together: of a rotor that is known the load is the rest.
+TEST(RubbingMotor, ALoadIsDrawnBesideARotorThatIsKnown) {
+  BlindRig rig = rig_with(0.006);
+  rig.drive.load_inertia = 8.0 * rig.drive.motor_inertia;
+  rig.excitation.waveform = independent_plant::Waveform::kMultisine;
+  rig.excitation.amplitude = 3.0;
+  ReferenceModel model = with_friction(nothing_known());
+  model.parameters[kMotorInertia] = ParameterSetting::known(rig.drive.motor_inertia);
+  const Recording recording = rig.recording();
+  const MotorTrace trace = recording.motor_trace();
+  using namespace internal::reference;
+  const FitProblem problem = make_problem({&trace, 1}, model, {});
+  for (const Solution& drawn : drawn_points(problem, 5).points)
+    EXPECT_NEAR(problem.numbers(drawn.q.data()).drive(kMassRatio), 8.0, 4.0);
 }
 
 /// Stiff teeth behind a small gap, in a motion of many times its width.
