@@ -67,7 +67,8 @@ std::string reference_line(const FitSummary& f, Coordinates coordinates) {
   const std::string quality = fmt::format("{}, rmse {}", f.converged() ? "converged" : "not converged",
                                           coordinates.thousandths(f.rmse));
   const FittedParameter* gap = f.find("gap");
-  if (f.closes_gap()) return "closes the gap: none by the fitted model (" + quality + ")";
+  if (f.closes_gap())
+    return "does as well with its gap closed, which does not say that the drive has none (" + quality + ")";
   if (f.rejected())
     return fmt::format("rejected: {}{}", f.why.text(),
                        gap == nullptr || !gap->estimated || std::isnan(gap->value)

@@ -99,7 +99,8 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
                "check without a model: " +
                told_without_model(*diagnosis);
       if (diagnosis->model_gap->encoder == EncoderSide::kLoad)
-        return "Backlash cannot be examined: the encoder is on the load, and this recording cannot show any.";
+        return "Backlash is not examined: with the encoder on the load only a model with a gap can tell it "
+               "(`gapscope init` with --model gap).";
       return "Backlash is not examined, as the model is a single body: it is neither shown nor ruled out; to "
              "check the recording for it: " +
              told_without_model(*diagnosis);

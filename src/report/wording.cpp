@@ -66,7 +66,10 @@ std::string reference_sentence(const RunResult& run) {
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
     return "The model-based reference has no result: " + fit.message.text();
   if (gap == nullptr) return "The model-based reference was told that the drive has no gap" + state + ".";
-  if (fit.closes_gap()) return "The model-based reference closes the gap: it finds none" + state + ".";
+  if (fit.closes_gap())
+    return "The model-based reference does as well with its gap closed, which does not say that the drive "
+           "has none" +
+           state + ".";
   if (fit.rejected())
     return "The model-based reference is rejected, its gap (" + quantity(gap->value, position_unit(run)) +
            ") is not to be believed: " + fit.why.text();

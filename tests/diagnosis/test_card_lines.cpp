@@ -236,7 +236,8 @@ TEST(CardGap, OfASingleBodyWithItsEncoderOnTheLoadDoesNotShow) {
   d.model_gap = ModelGap();
   d.model_gap->encoder = EncoderSide::kLoad;  // of one body its traces are of the motor, too
   EXPECT_EQ(card_of(d).gap,
-            "Backlash cannot be examined: the encoder is on the load, and this recording cannot show any.");
+            "Backlash is not examined: with the encoder on the load only a model with a gap can tell it "
+            "(`gapscope init` with --model gap).");
 }
 
 }  // namespace
