@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/card_words.h"
+#include "diagnosis/numbers.h"
 #include "diagnosis/rule.h"
 #include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
@@ -12,12 +13,14 @@ namespace gapscope {
 namespace {
 
 using internal::diagnosis::kRule;
+using internal::diagnosis::kTelling;
 using internal::diagnosis::SharedUnit;
 
 AnswerTrust trust_in(const Diagnosis& d) {
   const double remains = d.mismatch.after / d.mismatch.floor;
+  const bool little = d.model_gap && d.mismatch.after < kTelling.of_gap * d.model_gap->value;
   if (d.verdict == DiagnosisVerdict::kNone || remains < kRule.floor_ratio) return AnswerTrust::kGood;
-  return remains < kRule.far ? AnswerTrust::kLimited : AnswerTrust::kNone;
+  return remains < kRule.far || little ? AnswerTrust::kLimited : AnswerTrust::kNone;
 }
 
 std::string told_with(double value, const Interval& ci95, Coordinates coordinates) {

@@ -43,7 +43,7 @@ struct Lead {
 Lead lead_over(const LawSearch& law, const ScoredModel& model);
 
 /// Whether a law is the series that an effect begins: of the same torque, on the same axis, over the
-/// position, by its period or a whole part of it. Then it says of the effect's shape what the effect's own
+/// position, by its period or an integer fraction of it. Then it says of the effect's shape what its own
 /// form leaves out, and nothing against it.
 bool is_series_of(const LawSearch& law, const ModelEffect& effect);
 

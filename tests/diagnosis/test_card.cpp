@@ -50,6 +50,8 @@ TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited);
   d.mismatch.after = 2e-3;
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it is 20 floors off";
+  d.model_gap->value = 0.25, d.model_gap->ci95 = {0.24, 0.26};
+  EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited) << "0.8 % of the gap";
   d.mismatch.after = 1.2e-4, d.model_gap->ci95 = {};
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not determined";
   d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
