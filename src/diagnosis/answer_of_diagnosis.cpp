@@ -18,7 +18,8 @@ using internal::diagnosis::SharedUnit;
 
 AnswerTrust trust_in(const Diagnosis& d) {
   const double remains = d.mismatch.after / d.mismatch.floor;
-  const bool little = d.model_gap && d.mismatch.after < kTelling.of_gap * d.model_gap->value;
+  const bool predicted = d.mismatch.measure.starts_with("prediction");  // which an observer leads
+  const bool little = !predicted && d.model_gap && d.mismatch.after < kTelling.of_gap * d.model_gap->value;
   if (d.verdict == DiagnosisVerdict::kNone || remains < kRule.floor_ratio) return AnswerTrust::kGood;
   return remains < kRule.far || little ? AnswerTrust::kLimited : AnswerTrust::kNone;
 }
