@@ -16,12 +16,19 @@ using internal::diagnosis::kRule;
 using internal::diagnosis::kTelling;
 using internal::diagnosis::SharedUnit;
 
+/// Whether the model leaves less of the motion than matters to its gap, however far above the encoder's
+/// noise: less than its interval is wide, or hardly a part of it. A prediction, which an observer leads, does
+/// not say.
+bool leaves_little(const Diagnosis& d) {
+  if (!d.model_gap || d.mismatch.measure.starts_with("prediction")) return false;
+  const double half_width = 0.5 * (d.model_gap->ci95.high - d.model_gap->ci95.low);
+  return d.mismatch.after < std::max(kTelling.of_gap * d.model_gap->value, half_width);
+}
+
 AnswerTrust trust_in(const Diagnosis& d) {
   const double remains = d.mismatch.after / d.mismatch.floor;
-  const bool predicted = d.mismatch.measure.starts_with("prediction");  // which an observer leads
-  const bool little = !predicted && d.model_gap && d.mismatch.after < kTelling.of_gap * d.model_gap->value;
   if (d.verdict == DiagnosisVerdict::kNone || remains < kRule.floor_ratio) return AnswerTrust::kGood;
-  return remains < kRule.far || little ? AnswerTrust::kLimited : AnswerTrust::kNone;
+  return remains < kRule.far || leaves_little(d) ? AnswerTrust::kLimited : AnswerTrust::kNone;
 }
 
 std::string told_with(double value, const Interval& ci95, Coordinates coordinates) {

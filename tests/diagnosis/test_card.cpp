@@ -48,10 +48,15 @@ TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
             "that the diagnosis has fitted.");
   d.mismatch.after = 5e-4;
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited);
-  d.mismatch.after = 2e-3;
+  d.mismatch.after = 2e-3, d.model_gap->ci95 = {0.0185, 0.0215};
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "it is 20 floors off";
-  d.model_gap->value = 0.25, d.model_gap->ci95 = {0.24, 0.26};
+  d.model_gap->ci95 = {0.015, 0.025};
+  EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited) << "as the interval says";
+  d.model_gap->value = 0.25, d.model_gap->ci95 = {0.249, 0.251};
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited) << "0.8 % of the gap";
+  d.mismatch.measure = "prediction of an observer at 30 Hz";
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value());
+  d.mismatch.measure = "";
   d.mismatch.after = 1.2e-4, d.model_gap->ci95 = {};
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not determined";
   d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};
