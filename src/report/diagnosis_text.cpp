@@ -192,9 +192,12 @@ std::string steps_table(const DiagnosisResult& r) {
         parameters_of(s.ranking.front(), r.coordinates), names_list(s.dropped), s.remaining);
   }
   if (text.empty()) return "";
-  return "\n## Further steps\n\nEvery candidate was refitted on top of what was found before it.\n\n| on top "
-         "of | effect | outcome | not told from | error before | after | error removed | parameters | "
-         "made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
+  return std::string("\n## Further steps\n\n") +
+         (added(r) ? "Every candidate was refitted on top of what was found before it."
+                   : "No candidate was sure: every other was tried on top of the likeliest, and none bore it "
+                     "out.") +
+         "\n\n| on top of | effect | outcome | not told from | error before | after | error removed | "
+         "parameters | made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;
 }
 
