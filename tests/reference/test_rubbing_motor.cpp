@@ -64,7 +64,9 @@ TEST(RubbingMotor, ALoadIsDrawnBesideARotorThatIsKnown) {
   const MotorTrace trace = recording.motor_trace();
   using namespace internal::reference;
   const FitProblem problem = make_problem({&trace, 1}, model, {});
-  for (const Solution& drawn : drawn_points(problem, 5).points)
+  const StartPoints draws = drawn_points(problem, 5);
+  ASSERT_EQ(draws.points.size(), 5u);
+  for (const Solution& drawn : draws.points)
     EXPECT_NEAR(problem.numbers(drawn.q.data()).drive(kMassRatio), 8.0, 4.0);
 }
 
