@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "diagnosis/joint_effects.h"
 #include "diagnosis/probability.h"
 #include "gapscope/base/statistics.h"
 #include "torque_view/evidence.h"
@@ -73,6 +74,8 @@ bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_bad
   const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
   if (b.empty() || a.size() != b.size()) return false;
   if (!(after.fitted.mean_cost < (1.0 - kRule.part) * before.fitted.mean_cost)) return false;
+  const auto& effects = after.fitted.model.effects;
+  if (!effects.empty() && is_absent(effects.back())) return false;
   const auto squares = [](const std::vector<double>& w) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(w.data(), std::ssize(w)));
   };

@@ -75,7 +75,8 @@ Decision decide_among_equals(const std::vector<ScoredModel>& ranked, const Score
 
 /// Whether a candidate shrinks the held-out error beyond chance and by what is worth having, whatever its
 /// cause: by at least a part of the mean square, of which the 95 % interval over windows is above zero, in
-/// most of them, and by the same part of what was fitted.
+/// most of them, and by the same part of what was fitted. Where it has ended at none of its effect, other
+/// numbers do.
 bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_badly);
 
 double relative_gain(const ScoredModel& before, const ScoredModel& after);

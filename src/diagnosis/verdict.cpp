@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "diagnosis/joint_effects.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
@@ -15,10 +14,9 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-/// Whether the best candidate shrinks the held-out error, though its cause stays open. Of one that has ended
-/// where there is none of it only the other numbers help.
+/// Whether the best candidate shrinks the held-out error, though its cause stays open.
 bool best_helps(const Study& study, const Findings& found) {
-  return !found.candidates.empty() && !is_absent(found.candidates.front().fitted.model.effects.back()) &&
+  return !found.candidates.empty() &&
          shrink_of(found.before.median_free, found.candidates.front().median_free) > 0.0 &&
          std::isfinite(found.candidates.front().score) && !found.decision.group.empty() &&
          helps(found.before, found.candidates.front(), study.repeats_badly()) &&

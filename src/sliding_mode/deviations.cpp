@@ -10,18 +10,13 @@
 #include "sliding_mode/words.h"
 
 namespace gapscope::internal::sliding_mode {
-namespace {
-
-constexpr std::size_t kFewestEachWay = 3;  ///< passages of a recording that is read by itself
-
-}  // namespace
 
 double Deviations::together() const {
   return std::sqrt(random * random + directions * directions + recordings * recordings +
                    systematic * systematic + sampling * sampling + noise * noise);
 }
 
-double recordings_disagreement(std::span<const Transition* const> passages) {
+double recordings_disagreement(std::span<const Transition* const> passages, std::size_t fewest) {
   struct Gaps {
     std::vector<double> up, down;
   };
@@ -32,7 +27,7 @@ double recordings_disagreement(std::span<const Transition* const> passages) {
   }
   std::vector<double> read;
   for (auto& [file, gaps] : of_files)
-    if (std::min(gaps.up.size(), gaps.down.size()) >= kFewestEachWay)
+    if (std::min(gaps.up.size(), gaps.down.size()) >= fewest)
       read.push_back(0.5 * (median(std::move(gaps.up)) + median(std::move(gaps.down))));
   if (read.empty()) return 0.0;
   const auto [low, high] = std::ranges::minmax(read);

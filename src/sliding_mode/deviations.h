@@ -15,8 +15,9 @@ struct Deviations {
   double together() const;
 };
 
-/// Half of what the recordings disagree by that show the gap each by itself, in both directions [rad].
-double recordings_disagreement(std::span<const Transition* const> passages);
+/// Half of what the recordings disagree by that show the gap each by itself [rad].
+/// @param fewest  passages in each direction that do
+double recordings_disagreement(std::span<const Transition* const> passages, std::size_t fewest);
 
 /// What an interval that is too wide to be told is mostly made of.
 /// @param counts of the encoder in the gap

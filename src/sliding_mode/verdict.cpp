@@ -221,7 +221,7 @@ Deviations deviations(const Pool& pool, double gap, double disagreement) {
   const bool coarse = gap < kFineGap * pool.quantum || median_of(pool, &Transition::hidden) > kSoft * gap;
   return {scatter(pool) / std::sqrt(std::max((only == 0 ? 0.5 : 1.0) * witnesses, 1.0)),
           disagreement,
-          recordings_disagreement(pool.accepted),
+          recordings_disagreement(pool.accepted, kFewest),
           (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Transition::half_width),
           0.25 * median_of(pool, &Transition::speed) * pool.dt,
           pool.noise};

@@ -80,6 +80,18 @@ ScoredModel with_windows(const std::vector<double>& sizes) {
   return model;
 }
 
+TEST(Helps, NoEffectThatHasEndedWhereThereIsNoneOfIt) {
+  ScoredModel before = with_windows(std::vector<double>(20, 10.0)),
+              after = with_windows(std::vector<double>(20, 5.0));
+  before.fitted.mean_cost = 100.0, after.fitted.mean_cost = 25.0;
+  ModelEffect sag{find_effect("supply_sag"), {}};
+  sag.parameters[0].value = 0.03, sag.parameters[1].value = 1.0;
+  after.fitted.model.effects = {sag};
+  EXPECT_TRUE(helps(before, after, false));
+  after.fitted.model.effects.back().parameters[0].value = 0.0;
+  EXPECT_FALSE(helps(before, after, false));
+}
+
 TEST(LastResort, ALawThatLeavesMoreOfWhatWasFittedHasNoClearLead) {
   const auto leaving = [](double size) {
     ScoredModel model = with_windows(std::vector<double>(20, size));

@@ -51,7 +51,8 @@ DriveWithDetents drive_with_detents() {
   return {recorded(0.15, 1.0, 5.0), recorded(0.11, 1.5, 4.0), sheet_of_drive_with_detents()};
 }
 
-/// Of the draws: from 8 of the seeds 1 to 10 the drive is found without a value to begin with.
+/// Of the draws: without a value to begin with the drive is found from 8 of the seeds 1 to 10, not from 1
+/// and 5.
 constexpr std::uint64_t kSeed = 4;
 
 /// The same with no value to begin with, as `gapscope init` writes it.
