@@ -73,6 +73,8 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   const Configuration c = reading_of(r);
   auto [inspection, json] = checked_recording(c, purpose_of(a.purpose));
   if (!a.output.empty()) write_text(a.output, json, look());
+  if (const std::string told = r.told_by_names(); !a.json && !told.empty())
+    fmt::print("{:<12}{}\n", "units", told);
   fmt::print("{}", a.json ? json : inspection.report());
   std::fflush(stdout);  // read while the picture is drawn
   if (!a.picture.empty()) draw(a, inspection, r, *c.recording);

@@ -106,6 +106,9 @@ struct RecordingArguments {
   Coordinates coordinates() const { return translation ? Coordinates::kTranslation : Coordinates::kRotation; }
   std::optional<DriveController> commanding() const;  ///< @throws ConfigError for half of it
   RecordingConfig configuration() const;              ///< @throws ConfigError naming the option
+  /// "'time_ms' in ms, by the names of the columns ...": units that nothing else declares; empty: there are
+  /// none.
+  std::string told_by_names() const;
   /// Each of the axes that are asked for, as if it had been asked for alone; where it is none, these
   /// themselves.
   std::vector<RecordingArguments> each_axis() const;

@@ -146,7 +146,9 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   write_text(output, several ? named_after(r.axis, starter.yaml) : starter.yaml, "");
   print_warnings(starter.remarks);
   print_warnings(starter.spoiling);
-  fmt::print("{:<12}{}\n{:<12}{}\n", "written", output, "model", starter.model);
+  fmt::print("{:<12}{}\n", "written", output);
+  if (const std::string told = r.told_by_names(); !told.empty()) fmt::print("{:<12}{}\n", "units", told);
+  fmt::print("{:<12}{}\n", "model", starter.model);
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
   if (!starter.hangs.empty()) fmt::print("{:<12}{}\n", "hangs_at", starter.hangs);
   if (!starter.order.empty())

@@ -1,5 +1,6 @@
 // The options of the commands that are given a recording itself, before there is a configuration.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -37,6 +38,44 @@ std::optional<DriveController> RecordingArguments::commanding() const {
   return c;
 }
 
+namespace {
+
+struct NamedUnit {
+  std::string* declared;
+  std::string column;
+  Quantity quantity;
+};
+
+/// The units that may be left to the names of columns.
+std::vector<NamedUnit> left_to_names(DeclaredUnits& units, const RecordingColumns& columns,
+                                     Coordinates coordinates) {
+  const bool turns = coordinates.rotational();
+  std::vector<NamedUnit> left = {
+      {&units.time, columns.time, Quantity::kTime},
+      {&units.input, columns.input, turns ? Quantity::kTorque : Quantity::kForce},
+      {&units.position, columns.position, turns ? Quantity::kAngle : Quantity::kLength},
+      {&units.voltage, columns.voltage, Quantity::kVoltage}};
+  std::erase_if(left, [](const NamedUnit& u) { return !u.declared->empty(); });
+  return left;
+}
+
+}  // namespace
+
+std::string RecordingArguments::told_by_names() const {
+  const RecordingConfig c = configuration();
+  DeclaredUnits given = units;
+  std::vector<std::string> told;
+  for (const NamedUnit& u : left_to_names(given, c.reading.columns, coordinates())) {
+    const std::string unit = unit_in_name(u.column, u.quantity);
+    if (!unit.empty()) told.push_back(fmt::format("{} in {}", shown(u.column), unit));
+  }
+  return told.empty()
+             ? ""
+             : fmt::format(
+                   "{}, by the names of the columns (--time-unit, --position-unit, ... say otherwise)",
+                   fmt::join(told, ", "));
+}
+
 RecordingConfig RecordingArguments::configuration() const {
   if (units.position == "counts" && (bits == 0 || translation))
     throw ConfigError(
@@ -45,7 +84,6 @@ RecordingConfig RecordingArguments::configuration() const {
         "count as a number");
   RecordingConfig c;
   c.files = {{file, file, 0}};
-  c.units = units;
   c.registers = registers;
   c.gear = gear;
   ReadOptions& o = c.reading;
@@ -67,8 +105,11 @@ RecordingConfig RecordingArguments::configuration() const {
     throw ConfigError(fmt::format("gapscope: --input is {}, a temperature by its name, expected {}",
                                   shown(o.columns.input), kInputsOfDrives));
   require_three_columns(o.columns);
+  c.units = units;
+  for (const NamedUnit& u : left_to_names(c.units, o.columns, coordinates()))
+    *u.declared = unit_in_name(u.column, u.quantity);
   o.columns.scales = declared_scales(
-      units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
+      c.units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
         const std::string& unit = key == "time"      ? units.time
                                   : key == "input"   ? units.input
                                   : key == "voltage" ? units.voltage

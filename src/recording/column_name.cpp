@@ -21,6 +21,15 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
+/// Whether the name says, too, what is measured in a unit of one letter.
+bool says_quantity(std::string_view column, char unit) {
+  const char* quantity = unit == 'A' ? "current" : unit == 'V' ? "volt" : unit == 'N' ? "force" : nullptr;
+  const std::vector<std::string> words = words_of(column);
+  return quantity != nullptr && std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+           return word.starts_with(quantity);
+         });
+}
+
 }  // namespace
 
 bool says_temperature(std::string_view column) {
@@ -34,6 +43,17 @@ bool says_temperature(std::string_view column) {
     return word == "temp" || word == "temps" || word.starts_with("temperatur") || word == "celsius" ||
            word == "fahrenheit" || word == "kelvin";
   });
+}
+
+std::string unit_in_name(std::string_view column, Quantity quantity) {
+  const bool bracketed = column.ends_with(']') || column.ends_with(')');
+  const std::size_t before = column.find_last_of(bracketed ? "[(" : "_ ");
+  if (before == column.npos) return "";
+  std::string_view unit = column.substr(before + 1);
+  if (bracketed) unit.remove_suffix(1);
+  if (unit.empty() || std::isdigit(static_cast<unsigned char>(unit.front())) != 0) return "";
+  if (!bracketed && unit.size() == 1 && !says_quantity(column, unit.front())) return "";
+  return unit_scale(quantity, unit) ? std::string(unit) : "";
 }
 
 }  // namespace gapscope

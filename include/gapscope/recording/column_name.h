@@ -1,12 +1,20 @@
 #pragma once
 
+#include <string>
 #include <string_view>
+
+#include "gapscope/recording/units.h"
 
 namespace gapscope {
 
 /// Whether the name of a column, or a unit in it, is that of a temperature: "motor_temp", "coil [°C]". No
 /// drive is moved by one.
 bool says_temperature(std::string_view column);
+
+/// The unit of a quantity that ends the name of a column: "ms" of "time_ms", "deg" of "Angle [deg]". Empty
+/// where there is none. A single letter is one in brackets or of what the name says it measures, as of
+/// current_A: torque_A may be that of an axis A.
+std::string unit_in_name(std::string_view column, Quantity quantity);
 
 /// What is to be named as the input in its place, for messages.
 inline constexpr const char* kInputsOfDrives =
