@@ -35,12 +35,29 @@ const view::Share* share_of(const view::Budget& budget, const view::Term& term) 
   return at == budget.shares.end() ? nullptr : &*at;
 }
 
-BudgetRung rung_of(const view::Budget& budget, std::size_t i, const std::vector<std::string>& effects) {
+/// Whether a line of the balance, whose period was searched, is the effect of that name in a model: of its
+/// period or a harmonic of it. The balance sees slow torques alone, and takes for the line of a fast detent
+/// what comes down into its band.
+bool is_line_of(const view::Term& term, const ReferenceModel& model) {
+  constexpr double kMostHarmonic = 3.0;  // of the cogging's law
+  if (!term.law->line || term.law->shape_at < 0) return true;
+  const auto has_the_name = [&](const ModelEffect& e) {
+    return e.entry->name == std::string(term.law->effect);
+  };
+  const auto effect = std::ranges::find_if(model.effects, has_the_name);
+  if (effect == model.effects.end()) return true;
+  const double ratio = term.shape / effect->parameters[static_cast<std::size_t>(term.law->shape_at)].value;
+  const double times = std::max(ratio, 1.0 / ratio);
+  const double harmonic = std::clamp(std::round(times), 1.0, kMostHarmonic);
+  return std::abs(times - harmonic) < kRule.part * harmonic;
+}
+
+BudgetRung rung_of(const view::Budget& budget, std::size_t i, const Diagnosis& d) {
   const view::Candidate& choice = budget.rungs[i].choice();
   BudgetRung rung;
   rung.law = choice.law->name;
   rung.effect = choice.law->effect;
-  rung.added = std::find(effects.begin(), effects.end(), rung.effect) != effects.end();
+  rung.added = contains(d.effects, rung.effect) && is_line_of(choice.model.back(), d.fitted);
   rung.before = before_of(budget, i), rung.after = budget.rungs[i].rms;
   rung.share = choice.evidence.share;
   rung.share_ci95 = choice.evidence.interval;
@@ -68,17 +85,19 @@ struct CountedModel {
 
 /// The model without the laws that nobody can add; where one of the others was not added either, the budget
 /// down to that one.
-CountedModel counted_of(const view::Budget& budget, const std::vector<std::string>& added) {
+CountedModel counted_of(const view::Budget& budget, const std::vector<std::string>& added,
+                        const ReferenceModel& fitted) {
   CountedModel counted{budget.addable_rms, {}};
   bool all = true;
   for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
     counted.effects.emplace_back(budget.addable[i].law->effect);
-    all = all && has(added, counted.effects.back());
+    all = all && has(added, counted.effects.back()) && is_line_of(budget.addable[i], fitted);
   }
   if (all) return counted;
   counted = {budget.nominal_rms, {}};
   for (const view::Rung& rung : budget.rungs) {
     if (!rung.helps || !has(added, rung.choice().law->effect)) break;
+    if (!is_line_of(rung.choice().model.back(), fitted)) break;
     counted.rms = rung.rms;
     counted.effects.emplace_back(rung.choice().law->effect);
   }
@@ -117,7 +136,7 @@ std::vector<NamedValue> values_in(const ReferenceModel& model, const EffectEntry
 
 void count_added(const view::Budget& budget, Diagnosis& d) {
   const CountedModel counted =
-      d.effects.empty() ? CountedModel{budget.nominal_rms, {}} : counted_of(budget, d.effects);
+      d.effects.empty() ? CountedModel{budget.nominal_rms, {}} : counted_of(budget, d.effects, d.fitted);
   d.budget.with_effects = counted.rms;
   for (const std::string& effect : d.effects) {
     const EffectEntry* simpler = contained_effect(*find_effect(effect));
@@ -136,7 +155,7 @@ void tell_budget(const Study& study, const view::Budget& budget, Diagnosis& d) {
   told.repeatability = budget.floors.repeatability;
   told.records = study.train.size() + study.held_out.traces.size() > 1 ? budget.floors.disagreement() : kNaN;
   for (std::size_t i = 0; i < budget.rungs.size(); ++i)
-    if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d.effects));
+    if (budget.rungs[i].helps) told.rungs.push_back(rung_of(budget, i, d));
   if (is_refuted_by_motion(d)) {
     told = {};
     return;

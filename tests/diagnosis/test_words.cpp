@@ -110,5 +110,29 @@ TEST(Words, TheTorqueThatIsToldIsOfWhatWasAdded) {
   EXPECT_TRUE(d.budget.uncounted.empty());
 }
 
+/// A fast detent that the balance has at another period is none of its lines; a harmonic of it is one.
+TEST(Words, ALineOfAnotherPeriodIsNotWhatWasAdded) {
+  namespace view = internal::torque_view;
+  const auto uncounted = [](double periods_per_turn) {
+    const view::Term line{&view::law("cogging_torque"), periods_per_turn, Eigen::VectorXd::Zero(2)};
+    view::Budget budget;
+    budget.nominal_rms = 10.0, budget.addable_rms = 8.0;
+    view::Rung rung;
+    rung.helps = true, rung.rms = 8.0;
+    rung.ranking = {{line.law, {line}, {}, {}}};
+    budget.rungs.push_back(rung), budget.addable.push_back(line);
+    Diagnosis d;
+    d.effects = {"cogging_torque"};
+    ModelEffect cogging{find_effect("cogging_torque"), {}};
+    cogging.parameters[1].value = 12.0;
+    d.fitted.effects.push_back(cogging);
+    internal::diagnosis::count_added(budget, d);
+    return d.budget.uncounted;
+  };
+  for (const double same : {12.0, 11.9, 12.3, 24.0, 6.0}) EXPECT_TRUE(uncounted(same).empty()) << same;
+  for (const double other : {1.62, 3.24, 9.0, 17.0})
+    EXPECT_EQ(uncounted(other), std::vector<std::string>{"cogging_torque"}) << other;
+}
+
 }  // namespace
 }  // namespace gapscope
