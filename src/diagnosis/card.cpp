@@ -28,7 +28,6 @@ using internal::diagnosis::brief_doubt;
 using internal::diagnosis::brief_helps;
 using internal::diagnosis::cause_line;
 using internal::diagnosis::drifts_farther;
-using internal::diagnosis::exhausted_words;
 using internal::diagnosis::export_words;
 using internal::diagnosis::first_clause;
 using internal::diagnosis::gap_not_estimated;
@@ -41,12 +40,13 @@ using internal::diagnosis::mismatch_words;
 using internal::diagnosis::name_of;
 using internal::diagnosis::next_of_numbers;
 using internal::diagnosis::no_nearer;
-using internal::diagnosis::one_way_words;
 using internal::diagnosis::other_motion;
 using internal::diagnosis::percent_text;
 using internal::diagnosis::SharedUnit;
+using internal::diagnosis::step_onwards;
 using internal::diagnosis::step_to_establish;
 using internal::diagnosis::step_to_estimate;
+using internal::diagnosis::step_to_the_gap;
 using internal::diagnosis::unexplained;
 using internal::diagnosis::where_words;
 using internal::diagnosis::without_asides;
@@ -219,8 +219,8 @@ std::string step_of_the_model(const CardFacts& f, const Card& card, bool whole) 
 std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (card.good_enough && *card.good_enough) return "None: this is within your tolerance.";
   if (f.diagnosis != nullptr && f.diagnosis->stopped) return "Run `gapscope diagnose CONFIG` to its end.";
-  const std::string step = step_of_the_answer(f);
-  if (!step.empty()) return step;
+  if (std::string gap = f.diagnosis != nullptr ? step_to_the_gap(f) : ""; !gap.empty()) return gap;
+  if (std::string step = step_of_the_answer(f); !step.empty()) return step;
   if (f.diagnosis == nullptr)
     return f.answer != nullptr && f.answer->trust == AnswerTrust::kGood
                ? "Nothing more for the gap; `gapscope diagnose CONFIG` tells where the model and the drive "
@@ -230,17 +230,13 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
-  if (is_added(d) && !exhausted_words(d).empty())
-    return (one_way_words(d.where.direction).empty()
-                ? std::string("Go on from what was found: ")
-                : "Record both directions, too: without them causes stay open. "
-                  "To go on from what was found: ") +
-           "`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
-  if (const std::string& told = d.next_experiment.sentence; !told.empty())
-    return whole || d.next_experiment.separates() ? told : without_asides(told);
+  if (std::string onwards = is_added(d) ? step_onwards(d) : ""; !onwards.empty()) return onwards;
+  const bool separates = d.next_experiment.separates(), of_none = unknown && d.next_experiment.proposes();
+  if (const std::string& told = d.next_experiment.sentence; !told.empty() && (separates || !of_none))
+    return whole || separates ? told : without_asides(told);
   if (is_added(d)) return step_of_the_model(f, card, whole);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);
-  return step_to_establish(d);
+  return step_to_establish(f, card);
 }
 
 void measure(const CardFacts& f, Card& card) {

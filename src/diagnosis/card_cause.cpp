@@ -166,6 +166,7 @@ std::string verdict_words(const Diagnosis& d, Coordinates coordinates) {
     how = "missing in the model: " + (doubt.empty() ? "established" : doubt);
   if (d.verdict == DiagnosisVerdict::kHelps) how = "the error falls, but no cause is established";
   if (d.verdict == DiagnosisVerdict::kNone) how = "nothing is missing in the model";
+  if (d.verdict == DiagnosisVerdict::kUnknown && d.stopped) how = "the search was stopped before its end";
   return to_string(d.verdict) + (how.empty() ? "" : " (" + how + ")");
 }
 

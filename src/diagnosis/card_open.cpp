@@ -148,16 +148,38 @@ std::string step_to_estimate(const Diagnosis& d) {
       fmt::join(d.held, ", "));
 }
 
-std::string step_to_establish(const Diagnosis& d) {
-  return input_is_made(d)
-             ? "Record the motor's input as well (duty, current or torque), and diagnose from that."
-             : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
+std::string step_to_establish(const CardFacts& f, const Card& card) {
+  const std::string step =
+      input_is_made(*f.diagnosis)
+          ? "Record the motor's input as well (duty, current or torque), and diagnose from that."
+          : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
+  if (!(card.percent < 100.0 * kRule.part * kRule.part) || f.tolerance.stated()) return step;
+  return fmt::format(
+      "None, if {} of the {} is little enough (`tolerance: {{torque_percent: 1}}` judges it). Else r{}",
+      percent_text(card.percent), f.coordinates.torque_word(), step.substr(1));
+}
+
+std::string step_to_the_gap(const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
+  const bool fitted = d.model_gap && d.model_gap->origin == GapOrigin::kEstimated && d.model_gap->value > 0.0;
+  const bool told = f.answer != nullptr && f.answer->trust != AnswerTrust::kNone;
+  if (!fitted || told || d.added.empty()) return "";
+  return "Read the gap with what was found in the model: `gapscope run CONFIG --model-from DIR/fitted.yaml "
+         "-o DIR_gap`.";
 }
 
 std::string exhausted_words(const Diagnosis& d) {
   const bool at_floor = d.mismatch.remains < kRule.floor_ratio;
   if (!d.exhausted || d.stopped || at_floor || d.verdict == DiagnosisVerdict::kNone) return "";
   return " The search ended at its limit of work, so that further causes may have been missed.";
+}
+
+std::string step_onwards(const Diagnosis& d) {
+  if (exhausted_words(d).empty()) return "";
+  return (one_way_words(d.where.direction).empty() ? std::string("Go on from what was found: ")
+                                                   : "Record both directions, too: without them causes stay "
+                                                     "open. To go on from what was found: ") +
+         "`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.";
 }
 
 bool drifts_farther(const Diagnosis& d) {

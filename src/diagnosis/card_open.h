@@ -41,10 +41,17 @@ const char* what_applies(const Diagnosis& diagnosis);
 std::string step_to_estimate(const Diagnosis& diagnosis);
 
 /// The step where the recordings show a mismatch and establish nothing, and the other way round is no better.
-std::string step_to_establish(const Diagnosis& diagnosis);
+std::string step_to_establish(const CardFacts& facts, const Card& card);
+
+/// The step where the gap that was fitted is not told, though the model lacked what was found: it takes no
+/// new recording. Empty: there is no such gap.
+std::string step_to_the_gap(const CardFacts& facts);
 
 /// " The search ended at its limit of work: ..." where that may have left something unfound; else empty.
 std::string exhausted_words(const Diagnosis& diagnosis);
+
+/// The step from what was found where the search ended at its limit of work; empty: it did not.
+std::string step_onwards(const Diagnosis& diagnosis);
 
 /// What remains once all that was added is in the model, where that is most of it or far above the floor;
 /// empty: it is neither, or the budget has no size of something that was added.

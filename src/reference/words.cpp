@@ -217,15 +217,19 @@ Remark another_gap(double from, double to) {
           {from, to}};
 }
 Remark values_move(const Remark& where, const std::vector<ValueShift>& moved) {
-  Remark text = Remark("values_move", "values move by more than their own intervals ") + where;
+  Remark text = Remark("values_move", "values move by more than noise moves them ") + where;
   for (const ValueShift& m : moved) {
     const std::string name = &m == &moved.front() ? ": {}" : ", {}";
-    text +=
-        m.unit == "rad"
-            ? Remark("moved", name + " from {:.4g} [rad] to {:.4g} [rad]", {m.key, m.from, m.to})
-            : Remark("moved", name + " from {:.4g} to {:.4g} {}", {m.key, m.from, m.to, RemarkUnit{m.unit}});
+    const bool close = std::abs(m.to - m.from) < 1e-3 * std::abs(m.from);  // alike in four digits
+    const std::string number = close ? "{:.7g}" : "{:.4g}";
+    text += m.unit == "rad" ? Remark("moved", name + " from " + number + " [rad] to " + number + " [rad]",
+                                     {m.key, m.from, m.to})
+            : m.unit.empty() || m.unit == "-"
+                ? Remark("moved", name + " from " + number + " to " + number, {m.key, m.from, m.to})
+                : Remark("moved", name + " from " + number + " to " + number + " {}",
+                         {m.key, m.from, m.to, RemarkUnit{m.unit}});
   }
-  return text + Remark("values_move", ".");
+  return text + Remark("values_move", "; the intervals allow for that.");
 }
 Remark between_recordings(const std::string& from, const std::string& to) {
   return {"recordings", "from {} to {}", {from, to}};

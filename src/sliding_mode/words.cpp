@@ -1,5 +1,6 @@
 #include "sliding_mode/words.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gapscope::internal::sliding_mode::words {
@@ -90,11 +91,14 @@ Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
          advice;
 }
 Remark few_passages(long used, double asked, long seen, double half_periods, const Remark& advice) {
-  return Remark(
-             "few_passages",
+  const Remark text =
+      Remark("few_passages",
              "only {} usable passages of the gap where {:.0f} are asked, of {} seen in {:.0f} half periods: ",
              {used, asked, seen, half_periods}) +
-         advice;
+      advice;
+  const double times = asked / static_cast<double>(std::max(used, 1L));
+  if (times > 2.0 || advice.code() == more_periods().code()) return text;
+  return text + Remark("few_passages", ", or record {:.1f} times as long", {std::ceil(10.0 * times) / 10.0});
 }
 Remark passages_scatter(double percent) {
   return {"passages_scatter",

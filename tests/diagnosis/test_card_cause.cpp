@@ -216,6 +216,14 @@ TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   EXPECT_EQ(
       card_of(d).next,
       "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.");
+  d.model_gap = {GapOrigin::kEstimated, 0.0136, {0.0135, 0.0137}};
+  EXPECT_THAT(card_of(d).next, HasSubstr("`gapscope run CONFIG --model-from DIR/fitted.yaml -o DIR_gap`"))
+      << "no answer tells the gap that was fitted";
+  const Answer told{0.0136, {0.0135, 0.0137}, AnswerSource::kDiagnosis, AnswerTrust::kLimited, "It is.", {}};
+  CardFacts f;
+  f.diagnosis = &d, f.answer = &told;
+  EXPECT_THAT(card_of(f).next, HasSubstr("Go on from what was found"));
+  d.model_gap.reset();
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }
@@ -254,6 +262,14 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   d.budget.rungs.front().share = 0.3, d.better_swapped = false;
   EXPECT_EQ(card_of(d).cause, "Unknown, as no effect of the catalogue explains it.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"));
+  d.mismatch.input_torque = 3e3;
+  EXPECT_EQ(
+      card_of(d).next,
+      "None, if 0.42 % of the torque is little enough (`tolerance: {torque_percent: 1}` judges it). Else "
+      "record the drive in another motion (other speeds, other loads) and diagnose that.");
+  d.next_experiment.sentence = "No input within the limits would tell a from b by one σ.";
+  d.next_experiment.tried.resize(1);
+  EXPECT_THAT(card_of(d).next, HasSubstr("None, if 0.42 %")) << "neither was named";
 }
 
 TEST(CardCause, OfUnknownNamesTheLikeliestThatWasNotTakenAndAnErrorNearTheFloor) {
