@@ -72,7 +72,9 @@ Finding check_periods(const Material& m, RecordingFacts& facts) {
   if (s.half_periods > 0) facts.period = 2.0 * s.half_period;
   if (!s.defect.empty())
     return {kReversalsRule, Severity::kSpoils,
-            fmt::format("{} half periods of motion: the detector will be inconclusive", s.half_periods),
+            fmt::format(
+                "{} half periods of motion: the detector will be inconclusive; fit and diagnosis need none",
+                s.half_periods),
             s.defect.text()};
   return {kReversalsRule, Severity::kFine,
           fmt::format("{} strokes of {:.3g} s: {} passages of a gap can be expected", s.half_periods + 1,
