@@ -114,7 +114,7 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
                        [=](const BudgetRung& g) { return g.added == effect; });
   };
   if (has(true)) panel.series.push_back(entry("taken by an effect that was added", kBlue));
-  if (has(false)) panel.series.push_back(entry("taken by a law that this model cannot have", kGrey));
+  if (has(false)) panel.series.push_back(entry("taken by a law that is not in the model", kGrey));
   if (seen) {
     panel.x_marks.push_back({floors.front().size, guide_style(), ""});
     panel.series.push_back({floors.front().legend, guide_style(), {kNaN}, {kNaN}});
@@ -129,10 +129,10 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
           : fmt::format("The missing {} falls from {} to {}, {} of what the input applies", torque_of(r),
                         quantity(b.nominal, budget_unit(r)), quantity(b.remains, budget_unit(r)),
                         percents_of(b)(percent_of_input(b, b.remains)));
-  figure.reading += has(true) && has(false)
-                        ? ", with laws that this model cannot have; to " +
-                              quantity_beside(b.with_effects, b.nominal, budget_unit(r)) + " without them."
-                        : ".";
+  if (has(false)) figure.reading += ", with laws that are not in the model";
+  if (has(true) && has(false))
+    figure.reading += "; to " + quantity_beside(b.with_effects, b.nominal, budget_unit(r)) + " without them";
+  figure.reading += ".";
   if (!seen && !floors.empty())
     figure.reading += fmt::format(" The floor ({}), {}, lies outside of the figure.", floors.front().name,
                                   quantity(floors.front().size, budget_unit(r)));

@@ -98,7 +98,7 @@ TEST(DiagnosisWords, TheBudgetsFigureTellsTheTorqueOfTheModelBesideThatOfAllLaws
   r.diagnosis.budget.remains = 0.02;
   r.diagnosis.budget.rungs.push_back({"resonance", "", false, 0.036, 0.02, 0.7, {0.6, 0.8}, 0.1, 0.7, kNaN});
   EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
-              EndsWith(", with laws that this model cannot have; to 36.0 mN·m without them."));
+              EndsWith(", with laws that are not in the model; to 36.0 mN·m without them."));
 }
 
 TEST(DiagnosisWords, WhatTheBudgetNamedRestsOnIt) {
