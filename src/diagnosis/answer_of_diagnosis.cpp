@@ -48,6 +48,12 @@ bool reads_beside_rejected(const Answer& estimate, const Findings& f) {
          f.reference->rejected();
 }
 
+/// Whether the estimate is that of a model which lacked what the diagnosis has found since.
+bool is_superseded(const Answer& estimate, const Diagnosis& d) {
+  return estimate.from == AnswerSource::kReference && estimate.trust == AnswerTrust::kLimited &&
+         d.verdict == DiagnosisVerdict::kEffect;
+}
+
 /// Beside a reading, with which it agrees where their intervals do.
 Answer beside_reading(Answer a, const Answer& reading, Coordinates coordinates) {
   const bool agree = a.ci95.low <= reading.ci95.high && reading.ci95.low <= a.ci95.high;
@@ -84,6 +90,7 @@ std::optional<Answer> beside_denial(std::optional<Answer> told, const ModelGap& 
 std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, const Answer& estimate, const Findings& f) {
   std::optional<Answer> told = answer_of_diagnosis(d, f.coordinates);
   if (estimate.trust == AnswerTrust::kNone && std::isnan(estimate.gap)) return told;
+  if (told && is_superseded(estimate, d)) return told;
   const ModelGap* gap = fitted_gap(d);
   if (gap == nullptr) return {};
   const bool denied = f.model_free != nullptr && f.model_free->verdict == GapVerdict::kNone;
@@ -100,6 +107,7 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
   const AnswerTrust trust = trust_in(d);
   if (trust == AnswerTrust::kNone || !(gap.ci95.low > 0.0)) return {};
   Answer a{gap.value, gap.ci95, AnswerSource::kDiagnosis, trust, "", {}};
+  if (!internal::diagnosis::left_open(a).empty()) a.trust = AnswerTrust::kLimited;
   a.sentence = fmt::format("{}{} by the model that the diagnosis has fitted.",
                            internal::diagnosis::the_gap_is(), told_with(gap.value, gap.ci95, coordinates));
   return a;

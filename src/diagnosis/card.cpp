@@ -22,6 +22,7 @@ namespace gapscope {
 namespace {
 
 using internal::diagnosis::also_refitted;
+using internal::diagnosis::are_one_law;
 using internal::diagnosis::as_sentence;
 using internal::diagnosis::brief_cause;
 using internal::diagnosis::brief_doubt;
@@ -35,6 +36,7 @@ using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
 using internal::diagnosis::kToldByDiagnose;
+using internal::diagnosis::left_open;
 using internal::diagnosis::mismatch_size;
 using internal::diagnosis::mismatch_words;
 using internal::diagnosis::name_of;
@@ -121,6 +123,7 @@ std::string why_limited(const CardFacts& f, bool brief) {
       f.diagnosis->mismatch.remains >= kRule.floor_ratio &&
       f.diagnosis->mismatch.floor_from != FloorSource::kRepeatability)
     return leaves(f.diagnosis->mismatch.remains);
+  if (f.answer->from == AnswerSource::kDiagnosis) return left_open(*f.answer);
   const bool fitted = f.answer->from == AnswerSource::kReference && f.reference != nullptr;
   if (!brief || !fitted || f.reference->why.code() != "above_floor") return "";
   return leaves(f.reference->innovation_rmse / f.reference->floor);
@@ -231,8 +234,9 @@ std::string next_line(const CardFacts& f, const Card& card, bool whole) {
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps)) return step_to_estimate(d);
   if (unknown && d.better_swapped) return kSwapStep;  // which takes no new recording
   if (std::string onwards = is_added(d) ? step_onwards(d) : ""; !onwards.empty()) return onwards;
-  const bool separates = d.next_experiment.separates(), of_none = unknown && d.next_experiment.proposes();
-  if (const std::string& told = d.next_experiment.sentence; !told.empty() && (separates || !of_none))
+  const bool separates = d.next_experiment.separates(),
+             idle = are_one_law(d.group, d) || (unknown && d.next_experiment.proposes());
+  if (const std::string& told = d.next_experiment.sentence; !told.empty() && (separates || !idle))
     return whole || separates ? told : without_asides(told);
   if (is_added(d)) return step_of_the_model(f, card, whole);
   if (d.verdict == DiagnosisVerdict::kNone) return next_of_numbers(f);

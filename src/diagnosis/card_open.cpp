@@ -69,13 +69,17 @@ std::string why_open(const AddedEffect& a, const Diagnosis& d) {
   return doubt_of_balance(a, d);
 }
 
-std::string which_is_open(const std::vector<std::string>& group, const Diagnosis& d) {
+bool are_one_law(const std::vector<std::string>& group, const Diagnosis& d) {
   const bool one_body = d.model_gap && d.model_gap->origin == GapOrigin::kNone;  // with a gap they differ
-  const bool one_law = one_body && group.size() == 2 && contains(group, "constant_load_torque") &&
-                       contains(group, "friction_asymmetry");
-  return one_law ? "no recording can tell which: dry friction that differs with the direction is the same as "
-                   "equal friction and a constant torque"
-                 : "these recordings cannot tell which";
+  return one_body && group.size() == 2 && contains(group, "constant_load_torque") &&
+         contains(group, "friction_asymmetry");
+}
+
+std::string which_is_open(const std::vector<std::string>& group, const Diagnosis& d) {
+  return are_one_law(group, d)
+             ? "no recording can tell which: dry friction that differs with the direction is the same as "
+               "equal friction and a constant torque"
+             : "these recordings cannot tell which";
 }
 
 std::string least_of_a_cause(const std::vector<std::string>& why) {

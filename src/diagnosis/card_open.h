@@ -50,6 +50,10 @@ std::string step_to_the_gap(const CardFacts& facts);
 /// " The search ended at its limit of work: ..." where that may have left something unfound; else empty.
 std::string exhausted_words(const Diagnosis& diagnosis);
 
+/// Whether these are two names of one law in a single body: a constant torque, and dry friction that differs
+/// with the direction.
+bool are_one_law(const std::vector<std::string>& group, const Diagnosis& diagnosis);
+
 /// The step from what was found where the search ended at its limit of work; empty: it did not.
 std::string step_onwards(const Diagnosis& diagnosis);
 

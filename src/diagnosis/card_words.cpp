@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "diagnosis/card_open.h"
+#include "diagnosis/rule.h"
 #include "gapscope/base/decimals.h"
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/answer.h"
@@ -48,6 +49,12 @@ std::string SharedUnit::with_interval_aside(double value, const Interval& ci95) 
 }
 
 std::string the_gap_is() { return std::string("The backlash gap 2β") + kWhichGap + " is "; }
+
+std::string left_open(const Answer& gap) {
+  const double share = 0.5 * (gap.ci95.high - gap.ci95.low) / gap.gap;
+  return share > kRule.part ? fmt::format(" (these recordings leave it open by {:.0f} %)", 100.0 * share)
+                            : "";
+}
 
 std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }
 

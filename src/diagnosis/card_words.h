@@ -36,6 +36,10 @@ class SharedUnit {
 /// "The backlash gap 2β (full width, at x1) is "
 std::string the_gap_is();
 
+/// " (these recordings leave it open by 15 %)": of a gap whose interval is wider than a part of it, which
+/// then rests on the form of the contact's law, and nobody knows that; else empty.
+std::string left_open(const Answer& gap);
+
 /// "17.1 %", "0.21 %"
 std::string percent_text(double percent);
 
