@@ -222,6 +222,9 @@ bool is_told_in_torque(const Diagnosis& d) {
   if (d.added.empty() || !std::isfinite(m.before_torque)) return std::isfinite(m.before_torque);
   const double motion_left = std::max(0.0, (m.after - m.floor) / (m.before - m.floor));
   const bool tellable = m.before >= kRule.floor_ratio * m.floor;  // at the floor no motion falls any more
+  // The encoder's noise is torque, too: what is left at its floor may be most of what there was.
+  const bool noise_hides = m.after < kRule.floor_ratio * m.floor && 2.0 * m.after_torque > m.before_torque;
+  if (tellable && noise_hides) return false;
   if (!d.budget.uncounted.empty())
     return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
   // An elasticity moves x1, and takes no torque.

@@ -105,11 +105,14 @@ CountedModel counted_of(const view::Budget& budget, const std::vector<std::strin
 }
 
 /// Whether the balance of slow torques leaves much where the simulated motion is at the encoder's floor and
-/// an observer has next to nothing to correct: then it does not know this drive (a delay and friction of a
-/// quick motion are no slow torques), and what it leaves is not what the model lacks.
+/// an observer has next to nothing to correct, or where its own floor is far below: then it does not know
+/// this drive (a delay and friction of a quick motion are no slow torques, nor is friction that holds at each
+/// reversal), and what it leaves is not what the model lacks.
 bool is_refuted_by_motion(const Diagnosis& d) {
   const double least = std::sqrt(kRule.far);  // about three, midway between alike and beyond doubt
-  return d.mismatch.remains < kRule.floor_ratio && d.budget.with_effects > least * d.mismatch.after_torque;
+  const double left = d.budget.with_effects, floor = d.budget.floor();
+  return d.mismatch.remains < kRule.floor_ratio &&
+         (left > least * d.mismatch.after_torque || (floor > 0.0 && left > least * floor));
 }
 
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }

@@ -242,7 +242,9 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
     return is_of_encoder(h.periods, held_out.traces);
   });
   const double line_explained = line == lines.end() ? 0.0 : line->explained;
-  if (line_explained > kTelling.strength) place.periods_per_turn = line->periods;
+  // What comes once in the travel does not repeat there.
+  if (line_explained > kTelling.strength && line->periods >= 2.0 * one_cycle(held_out.traces))
+    place.periods_per_turn = line->periods;
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, moving, place, line_explained), effect);

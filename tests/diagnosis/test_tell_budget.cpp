@@ -8,7 +8,9 @@ namespace {
 
 /// Of a balance that leaves 16 mN·m of 45, beside a motion that an observer has to correct by so much.
 /// @param remains  of the simulated motion [floor]
-Diagnosis told(double remains, double correcting, const std::vector<std::string>& effects) {
+/// @param floor  of the balance [N m]
+Diagnosis told(double remains, double correcting, const std::vector<std::string>& effects,
+               double floor = 0.01) {
   using namespace internal::diagnosis;
   const DiagnosisOptions options;
   const Study study{{}, {}, {}, {}, kMeasure.slow_hz, 0.0, {}, options};
@@ -16,6 +18,7 @@ Diagnosis told(double remains, double correcting, const std::vector<std::string>
   budget.band.hz = 1.4;
   budget.input_rms = 0.045;
   budget.nominal_rms = budget.addable_rms = budget.rms = 0.016;
+  budget.floors.encoder = floor;
   Diagnosis d;
   d.effects = effects;
   d.mismatch.remains = remains, d.mismatch.after_torque = correcting;
@@ -36,6 +39,11 @@ TEST(TellBudget, IsNotToldWhereTheMotionShowsNothingOfWhatItLeaves) {
     EXPECT_FALSE(d.budget.exists());
     EXPECT_EQ(d.mismatch.after_torque, 1e-4) << "the observer's";
   }
+}
+
+TEST(TellBudget, IsNotToldWhereItLeavesFarMoreThanItsOwnFloorOfAMotionThatIsExplained) {
+  EXPECT_FALSE(told(1.1, 0.01, {}, 1e-4).budget.exists());
+  EXPECT_TRUE(told(5.0, 0.01, {}, 1e-4).budget.exists()) << "the motion shows what it leaves";
 }
 
 TEST(TellBudget, IsToldAtTheFloorWhereAnObserverCorrectsAsMuch) {
