@@ -39,7 +39,6 @@ const view::Share* share_of(const view::Budget& budget, const view::Term& term) 
 /// period or a harmonic of it. The balance sees slow torques alone, and takes for the line of a fast detent
 /// what comes down into its band.
 bool is_line_of(const view::Term& term, const ReferenceModel& model) {
-  constexpr double kMostHarmonic = 3.0;  // of the cogging's law
   if (!term.law->line || term.law->shape_at < 0) return true;
   const auto has_the_name = [&](const ModelEffect& e) {
     return e.entry->name == std::string(term.law->effect);
@@ -48,7 +47,7 @@ bool is_line_of(const view::Term& term, const ReferenceModel& model) {
   if (effect == model.effects.end()) return true;
   const double ratio = term.shape / effect->parameters[static_cast<std::size_t>(term.law->shape_at)].value;
   const double times = std::max(ratio, 1.0 / ratio);
-  const double harmonic = std::clamp(std::round(times), 1.0, kMostHarmonic);
+  const double harmonic = std::clamp(std::round(times), 1.0, 3.0);  // the cogging's law has three
   return std::abs(times - harmonic) < kRule.part * harmonic;
 }
 

@@ -216,14 +216,6 @@ TEST(CardCause, TellsThatTheSearchEndedAtItsLimit) {
   EXPECT_EQ(
       card_of(d).next,
       "Go on from what was found: `gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more`.");
-  d.model_gap = {GapOrigin::kEstimated, 0.0136, {0.0135, 0.0137}};
-  EXPECT_THAT(card_of(d).next, HasSubstr("`gapscope run CONFIG --model-from DIR/fitted.yaml -o DIR_gap`"))
-      << "no answer tells the gap that was fitted";
-  const Answer told{0.0136, {0.0135, 0.0137}, AnswerSource::kDiagnosis, AnswerTrust::kLimited, "It is.", {}};
-  CardFacts f;
-  f.diagnosis = &d, f.answer = &told;
-  EXPECT_THAT(card_of(f).next, HasSubstr("Go on from what was found"));
-  d.model_gap.reset();
   d.mismatch.remains = 1.1;
   EXPECT_THAT(card_of(d).cause, Not(HasSubstr("limit of work"))) << "nothing is left to be found";
 }
@@ -242,9 +234,8 @@ TEST(CardCause, OfUnknownTellsWhatTheBudgetHasAndWhyItIsNotEstablished) {
   Diagnosis d = unknown_beside_a_budget();
   EXPECT_EQ(card_of(d).cause,
             "Unknown, though load unbalance is suspected: as a term of the torque balance it brings the "
-            "missing torque "
-            "down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings well enough to "
-            "establish it.");
+            "missing torque down from 12.6 to 2.43 N·m, but no simulation with it follows the recordings "
+            "well enough to establish it.");
   EXPECT_EQ(card_of(d).helps, "Nothing that these recordings establish; `fitted.yaml` has no addition.");
   EXPECT_THAT(card_of(d).next, HasSubstr("Record the drive in another motion"))
       << "swapped they would send back: what is fitted asks as much";

@@ -121,6 +121,17 @@ TEST(CardConsistency, TheGapOfTheDiagnosisGoesBeforeThatOfAModelWhichLackedWhatI
   EXPECT_FALSE(answer_of_diagnosis(d, fitted, beside).has_value()) << "it found nothing";
 }
 
+TEST(CardConsistency, AGapThatNobodyTellsIsReadAgainWithWhatWasFound) {
+  Diagnosis d = of_friction_and_delay(true, true);
+  d.mismatch.remains = 10.0, d.exhausted = true;
+  d.model_gap = {GapOrigin::kEstimated, 0.0136, {0.0135, 0.0137}};
+  EXPECT_THAT(card_of(d).next, HasSubstr("`gapscope run CONFIG --model-from DIR/fitted.yaml -o DIR_gap`"));
+  const Answer told{0.0136, {0.0135, 0.0137}, AnswerSource::kDiagnosis, AnswerTrust::kLimited, "It is.", {}};
+  CardFacts f;
+  f.diagnosis = &d, f.answer = &told;
+  EXPECT_THAT(gapscope::card_of(f).next, HasSubstr("Go on from what was found"));
+}
+
 TEST(CardConsistency, AGapThatIsLeftOpenByAPartOfItIsNotTrustedWell) {
   Diagnosis d = of_gap();
   ASSERT_EQ(answer_of_diagnosis(d, Coordinates::kRotation)->trust, AnswerTrust::kGood);
