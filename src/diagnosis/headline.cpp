@@ -25,14 +25,27 @@ bool denser_than_chance(const MapShare& m) {
   return m.share * (1.0 - m.expected) > kTelling.dense * m.expected * (1.0 - m.share);
 }
 
+/// Most of it, and more than the time that they take: what the contact's law leaves rings on.
+bool is_behind_impacts(const MismatchPlace& place) {
+  return place.behind_impacts.share > 0.5 && denser_than_chance(place.behind_impacts);
+}
+
+std::string share_words(const MapShare& m, Coordinates coordinates) {
+  return fmt::format(" ({:.0f} % of the squared correcting {} in {:.0f} % of the time)", 100.0 * m.share,
+                     coordinates.torque_word(), 100.0 * m.expected);
+}
+
+std::string behind_impacts_words(const MismatchPlace& place, Coordinates coordinates) {
+  return "at impacts and just behind them" + share_words(place.behind_impacts, coordinates);
+}
+
 std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   static constexpr const char* kWhere[] = {"in the gap", "in engagement", "at impacts"};
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
   const MapShare& m = place.mode[phase];
   if (!denser_than_chance(m) || !(m.share - m.expected > kRule.part)) return "";
-  return fmt::format("{} ({:.0f} % of the squared correcting {} in {:.0f} % of the time)", kWhere[phase],
-                     100.0 * m.share, coordinates.torque_word(), 100.0 * m.expected);
+  return kWhere[phase] + share_words(m, coordinates);
 }
 
 /// Of the one in which it is denser than the time that it takes, be it the smaller share; where neither is,
@@ -146,6 +159,7 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates, boo
                     : joint + (needs_verb ? "is " : "") + words.substr(again ? kDepends.size() : 0);
   }
   const std::string phase = phase_words(place, coordinates);
+  if (place.follows.empty() && is_behind_impacts(place)) return behind_impacts_words(place, coordinates);
   if (place.follows.empty() || (patterns.empty() && phase.empty() && one_way.empty()))
     patterns = "no clear pattern in angle, speed, input or time";
   const std::string told = phase + (phase.empty() || patterns.empty() ? "" : ", ") + patterns;

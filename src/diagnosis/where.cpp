@@ -9,6 +9,7 @@
 
 #include "diagnosis/harmonics.h"
 #include "diagnosis/headline.h"
+#include "diagnosis/numbers.h"
 #include "gapscope/base/decimals.h"
 #include "signals/encoder.h"
 #include "signals/local_motion.h"
@@ -25,6 +26,7 @@ struct Sample {
   double torque, w1, x1, u, time;
   int direction;  ///< of the motion, ±1; 0: the drive stands
   Mode mode;
+  bool behind_impact;  ///< by no more than the observer that shows ripple takes for a period
 };
 
 /// By what x1 covers around the sample. A drive that stands has a speed, too: that of the encoder's last
@@ -40,9 +42,14 @@ std::vector<Sample> samples_of(const std::vector<Playback>& playbacks, const Hel
   for (std::size_t r = 0; r < playbacks.size(); ++r) {
     const MotorTrace& t = held_out.traces[r];
     const Playback& p = playbacks[r];
-    for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i)
+    double touched = -kInfinity;
+    for (std::size_t i = std::max(held_out.scored_from[r], held_out.restart(r)); i < t.size(); ++i) {
+      const bool closes = i > 0 && p.mode[i - 1] == Mode::kGap && p.mode[i] != Mode::kGap;
+      if (closes || p.mode[i] == Mode::kImpact) touched = t.elapsed(i);
       samples.push_back({p.torque[i], p.w1[i], t.x1[i], km * t.u[i], t.elapsed(i),
-                         direction_at(t, i, held_out.floors[r]), p.mode[i]});
+                         direction_at(t, i, held_out.floors[r]), p.mode[i],
+                         t.elapsed(i) - touched < 1.0 / kMeasure.fast_hz});
+    }
   }
   return samples;
 }
@@ -234,6 +241,11 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   const std::vector<Sample> moving = moving_of(samples);
   fill_maps(samples, moving, coordinates, place);
   place.frequency = frequency_map(playbacks, held_out);
+  std::vector<MapShare> impacts =
+      class_map(samples, {"elsewhere", "behind impacts"},
+                [](const Sample& s) -> std::size_t { return s.behind_impact ? 1 : 0; });
+  normalise(impacts);
+  place.behind_impacts = impacts.back();
   for (auto* map : {&place.mode, &place.direction, &place.speed, &place.angle, &place.input, &place.frequency,
                     &place.time})
     normalise(*map);

@@ -161,6 +161,25 @@ TEST(CardBasis, ThePlaceIsOfTheBandThatTheSizeIsOf) {
   EXPECT_THAT(place_of({p}, held, 1.0, {}, nullptr, 5.0).headline, StartsWith("depends on the speed"));
 }
 
+/// A gap is crossed twice a second; for 20 ms behind each impact the contact's law leaves a torque.
+TEST(CardBasis, WhatTheContactLeavesIsPlacedBehindItsImpacts) {
+  std::vector<double> u, x1;
+  Playback p;
+  constexpr double kStep = 1e-3;
+  for (int i = 0; i < 8000; ++i) {
+    const int since = i % 500;  // of the impact
+    u.push_back(0.0), x1.push_back(0.01 * ((i * 37) % 101)), p.w1.push_back(0.1 * ((i * 53) % 89));
+    p.torque.push_back(since < 20 ? (since % 2 == 0 ? 1.0 : -1.0) : (i % 2 == 0 ? 0.01 : -0.01));
+    p.mode.push_back(since > 400 ? Mode::kGap : Mode::kEngagementPlus);
+  }
+  MotorTrace trace;
+  trace.dt = kStep, trace.u = u, trace.x1 = x1;
+  HeldOut held;
+  held.traces = {trace}, held.scored_from = {0}, held.floors = {1e-6}, held.periods = {0.0};
+  EXPECT_THAT(place_of({p}, held, 1.0, {}, nullptr).headline,
+              StartsWith("at impacts and just behind them (100 % of the squared correcting torque in 7 %"));
+}
+
 /// One way for a second, then at rest, where the encoder's last count flickers and an observer makes motion
 /// of it.
 TEST(CardBasis, ADriveThatStandsMovesInNoDirection) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "diagnosis/headline.h"
@@ -19,6 +20,22 @@ TEST(Headline, NamesAPhaseOfTheContactOnlyWhereTheErrorIsDenserThanChance) {
   EXPECT_TRUE(
       headline_with(0.98, 0.8).starts_with("in engagement (98 % of the squared correcting torque in 80 %"));
   EXPECT_TRUE(headline_with(0.4, 0.2).starts_with("in engagement"));
+}
+
+TEST(Headline, NamesImpactsAndWhatIsBehindThemWhereNothingElseOrdersTheError) {
+  MismatchPlace place;
+  place.mode = {{"gap", 0.2, 0.2}, {"engagement", 0.8, 0.8}, {"impact", 0.0, 0.0}};
+  place.phase = ContactPhase::kEngagement;
+  place.behind_impacts = {"", 0.91, 0.2};
+  EXPECT_EQ(headline_of(place, {}),
+            "at impacts and just behind them (91 % of the squared correcting torque in 20 % of the time)");
+  place.behind_impacts = {"", 0.4, 0.1};
+  EXPECT_THAT(headline_of(place, {}), ::testing::StartsWith("no clear pattern")) << "most is elsewhere";
+  place.behind_impacts = {"", 0.91, 0.9};
+  EXPECT_THAT(headline_of(place, {}), ::testing::StartsWith("no clear pattern")) << "they are everywhere";
+  place.behind_impacts = {"", 0.91, 0.2}, place.follows = {ResidualPattern::kDirection};
+  place.direction = {{"backward", 0.5, 0.5}, {"forward", 0.5, 0.5}};
+  EXPECT_EQ(headline_of(place, {}), "reverses with the direction of motion");
 }
 
 TEST(Headline, SaysInWhichDirectionTheErrorIsOrThatItIsInBoth) {

@@ -127,6 +127,7 @@ struct MismatchPlace {
   std::vector<ResidualPattern> follows;  ///< what orders it, that of a found effect first
   std::vector<MapShare> mode, direction, speed, angle, input, frequency, time;
   double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
+  MapShare behind_impacts;         ///< at impacts and 33 ms behind them; told where nothing else orders it
 };
 
 /// A torque that repeats with the motor angle, -A sin(N x1 + phase), in what the model leaves.
