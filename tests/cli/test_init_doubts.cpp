@@ -97,7 +97,7 @@ TEST(InitDoubts, WhereAnArmHangsIsReadOffTheRecording) {
   const auto written = [&](const std::string& name) {
     const auto init = place.run("init " + name + ".csv --model one_body --mass 0.7 --arm 0.1");
     EXPECT_EQ(init.status, 0) << init.err;
-    return std::pair(init.out, text_of(place.folder() / (name + ".yaml")));
+    return std::pair(init.out, testing::text_of(place.folder() / (name + ".yaml")));
   };
   const auto [told, pi] = written("pi");
   EXPECT_THAT(told, HasSubstr("hangs_at    3.14 rad, read off the recording"));
@@ -147,7 +147,7 @@ TEST(InitDoubts, AWindowCutsWhatIsHeldOutAsWellAndThatIsSaid) {
   EXPECT_EQ(both.status, 0) << both.err;
   EXPECT_THAT(both.out,
               HasSubstr("window      0 to 1.5 s of both files, also of h.csv, which is held out\n"));
-  EXPECT_THAT(text_of(place.folder() / "both.yaml"),
+  EXPECT_THAT(testing::text_of(place.folder() / "both.yaml"),
               HasSubstr("window: [0, 1.5]  # s, of each file, held_out as well\n"));
   EXPECT_THAT(place.run(init + "-o one.yaml").out, Not(HasSubstr("window")));
 }
@@ -161,23 +161,24 @@ TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
   const auto told = place.run(init + "-o told.yaml");
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out, Not(HasSubstr("GUESS")));
-  const std::string yaml = text_of(place.folder() / "told.yaml");
+  const std::string yaml = testing::text_of(place.folder() / "told.yaml");
   EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172  # N m per unit of u, as told"));
   EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.0008"));  // of 8.78e-4 kg m^2
   EXPECT_THAT(yaml, Not(HasSubstr("over torque_constant")));
   EXPECT_EQ(place.run(init + "--gear-ratio 2 -o geared.yaml").status, 0);
-  const std::string geared = text_of(place.folder() / "geared.yaml");
+  const std::string geared = testing::text_of(place.folder() / "geared.yaml");
   EXPECT_THAT(geared, HasSubstr("torque_constant: {value: 0.172, given_at: motor}"));
   EXPECT_THAT(geared, HasSubstr("motor_inertia: {value: 0.003")) << "four times, behind the gear";
   EXPECT_THAT(place.run(init + "--input-unit 'N m' -o torque.yaml").err, HasSubstr("it is 1 there"));
   EXPECT_EQ(place.run(init + "--inertia 8.8e-4 -o sheet.yaml").status, 0);
-  const std::string sheet = text_of(place.folder() / "sheet.yaml");
+  const std::string sheet = testing::text_of(place.folder() / "sheet.yaml");
   EXPECT_THAT(sheet,
               AllOf(HasSubstr("motor_inertia: {value: 0.00088, estimate: true}  # kg m^2; begun as told"),
                     Not(HasSubstr("anchor"))));
   EXPECT_EQ(place.run("init r.csv --model gap --torque-constant 0.172 --inertia 8.8e-4 -o gap.yaml").status,
             0);
-  EXPECT_THAT(text_of(place.folder() / "gap.yaml"), HasSubstr("motor_inertia: 0.00088  # kg m^2, as told"));
+  EXPECT_THAT(testing::text_of(place.folder() / "gap.yaml"),
+              HasSubstr("motor_inertia: 0.00088  # kg m^2, as told"));
   EXPECT_NE(place.run(init + "--mass 0.5 --arm 0.1 -o anchored.yaml").status, 0);
 }
 
