@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "report/signals.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -43,6 +45,21 @@ std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& 
 
 std::string band_words(const ErrorBudget& budget, const MismatchTrace& trace) {
   return band_reach(budget, trace) == 0 ? "" : " below " + rounded(budget.band_hz, 2) + " Hz";
+}
+
+double draw_means_of_a_block(std::vector<Series>& lines) {
+  const Stretches last = stretches_of(lines.back().y);
+  if (!last.are_a_block()) return 0.0;
+  double length = 0.0;
+  for (Series& s : lines) {
+    const Stretches parts = stretches_of(s.y);
+    std::vector<double> middles;
+    for (std::size_t i = 0; i < parts.means.size(); ++i)
+      middles.push_back(0.5 * (s.x[i * parts.each] + s.x[(i + 1) * parts.each - 1]));
+    length = s.x[parts.each] - s.x[0];
+    s.x = std::move(middles), s.y = parts.means;
+  }
+  return length;
 }
 
 double informative_reach(const std::vector<double>& values, double least) {

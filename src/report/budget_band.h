@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/results/diagnosis_result.h"
+#include "report/figure_data.h"
 
 /// The correcting torque as figures show it: in the band in which the error budget judges it, at a scale that
 /// shows what it tells.
@@ -18,6 +19,10 @@ std::vector<double> within_band(const ErrorBudget& budget, const MismatchTrace& 
 
 /// " below 64 Hz" where within_band() changes what it is given, else nothing.
 std::string band_words(const ErrorBudget& budget, const MismatchTrace& trace);
+
+/// Where the last of the lines over one x would be a black block (Stretches), the means of stretches in place
+/// of the samples of all; how long a stretch is, 0: they stay as they are.
+double draw_means_of_a_block(std::vector<Series>& lines);
 
 /// How far an axis around zero reaches: to all values, or, where a few lie far away, to 99 % of them.
 /// @param least  shown in any case, as far as there are values

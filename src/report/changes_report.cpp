@@ -1,6 +1,7 @@
 #include "gapscope/report/changes_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,6 +80,17 @@ void add_series(const DriveQuantity& q, double aside, Panel& panel) {
   if (!denied.x.empty()) panel.series.push_back(std::move(denied));
 }
 
+/// " (none of b)": the reports in whose place nothing is drawn.
+std::string without_a_gap(const DriveChanges& all, const std::vector<std::string>& names) {
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (std::none_of(all.quantities.begin(), all.quantities.end(), [&](const DriveQuantity& q) {
+          return is_gap(q) && (std::isfinite(q.observed[i].value) || std::isfinite(q.observed[i].ci95.high));
+        }))
+      without.push_back(literal(names[i]));
+  return without.empty() ? "" : fmt::format(" (none of {})", fmt::join(without, ", "));
+}
+
 std::string reading_of(const DriveChanges& all) {
   std::string text;
   for (const DriveQuantity& q : all.quantities)
@@ -96,10 +108,11 @@ FigureData gap_over_recordings(const DriveChanges& all) {
   figure.file = "gap_over_recordings.png";
   figure.title = "The gap over the recordings";
   Panel panel;
-  panel.title = "Estimates with 95 % intervals";
+  const std::vector<std::string> names = short_names(all.reports);
+  panel.title = "Estimates with 95 % intervals" + without_a_gap(all, names);
   panel.x = {
       "report, in the order given", "", {0.5, static_cast<double>(all.reports.size()) + 0.5}, {}, {}, {}};
-  for (const std::string& name : short_names(all.reports))
+  for (const std::string& name : names)
     panel.x.places.push_back({static_cast<double>(panel.x.places.size() + 1), literal(name)});
   panel.y.unit = all.coordinates.position_unit();
   const auto gaps = std::count_if(all.quantities.begin(), all.quantities.end(), is_gap);

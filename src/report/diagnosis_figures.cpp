@@ -57,6 +57,15 @@ Panel pair_panel(const DiagnosisResult& r, const MismatchTrace& t, const std::st
   return panel;
 }
 
+Panel correcting_panel(const DiagnosisResult& r, const MismatchTrace& t) {
+  const ErrorBudget& budget = r.diagnosis.budget;
+  Panel panel = pair_panel(r, t, "Correcting " + torque_word(r) + band_words(budget, t), correction_axis(r),
+                           within_band(budget, t, t.torque_before), within_band(budget, t, t.torque_after));
+  const double length = draw_means_of_a_block(panel.series);
+  if (length > 0.0) panel.title += ", mean of " + quantity(length, "s");
+  return panel;
+}
+
 /// 100 (1 − |x − x̂|/|x − mean|) of what is scored [%].
 double fit_percent(const MismatchTrace& t, const std::vector<double>& simulated) {
   const std::span<const double> x = std::span(t.x1).subspan(t.scored_from);
@@ -167,10 +176,7 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
   figure.panels.push_back(pair_panel(r, *t, error_title(r.diagnosis.measures),
                                      {position_name(r) + " − free run", length_unit(r), {}, {}, {}},
                                      t->error_before, t->error_after));
-  const ErrorBudget& budget = r.diagnosis.budget;
-  figure.panels.push_back(pair_panel(r, *t, "Correcting " + torque_word(r) + band_words(budget, *t),
-                                     correction_axis(r), within_band(budget, *t, t->torque_before),
-                                     within_band(budget, *t, t->torque_after)));
+  figure.panels.push_back(correcting_panel(r, *t));
   figure.panels.insert(figure.panels.begin(), recorded_over_simulated(r, *t));
   const MismatchSize& g = r.diagnosis.mismatch;
   figure.reading = fmt::format("On {} the error is {} (median over windows), the floor {}", t->file,

@@ -11,8 +11,6 @@
 namespace gapscope::internal::report {
 namespace {
 
-constexpr double kShownOfPixel = 4.0;  ///< samples of a pixel column that decimate_columns() keeps
-
 /// Stretches of the gap mode of the fitted model within an interval.
 std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   std::vector<Band> bands;
@@ -29,26 +27,24 @@ std::vector<Band> gap_bands(const ReportView& view, const Interval& interval) {
   return bands;
 }
 
-/// Where a line through every sample would be a black block, since they differ more within short stretches
-/// than these do: mean and standard deviation of the stretches, over the samples in grey.
+/// Where a line through every sample would be a black block: mean and standard deviation of stretches, over
+/// the samples in grey.
 void add_stretches(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
                    Panel& panel) {
-  constexpr std::size_t kStretches = 200;
   const std::size_t first = view.index(interval.low), end = view.index(interval.high) + 1;
-  const std::size_t each = (end - first + kStretches - 1) / kStretches;
+  const Stretches parts = stretches_of(std::span(residual).subspan(first, end - first));
+  if (!parts.are_a_block()) return;
   Series middle, above, below;
-  double within = 0.0;
-  for (std::size_t i = first; i + each <= end; i += each) {
-    const std::span<const double> part(residual.data() + i, each);
-    const double m = mean(part), spread = std::sqrt(std::max(0.0, rms(part) * rms(part) - m * m));
-    const double t = 0.5 * (view.time[i] + view.time[i + each - 1]);
+  for (std::size_t i = 0; i < parts.means.size(); ++i) {
+    const std::size_t at = first + i * parts.each;
+    const double t = 0.5 * (view.time[at] + view.time[at + parts.each - 1]);
     for (Series* s : {&middle, &above, &below}) s->x.push_back(t);
-    within += spread * spread;
-    middle.y.push_back(m), above.y.push_back(m + spread), below.y.push_back(m - spread);
+    middle.y.push_back(parts.means[i]);
+    above.y.push_back(parts.means[i] + parts.spreads[i]),
+        below.y.push_back(parts.means[i] - parts.spreads[i]);
   }
-  const double between = rms(middle.y) * rms(middle.y) - mean(middle.y) * mean(middle.y);
-  if (!(within > between * static_cast<double>(middle.y.size()))) return;
-  middle.label = fmt::format("mean of {}", quantity(static_cast<double>(each) * view.recording->dt, "s"));
+  middle.label =
+      fmt::format("mean of {}", quantity(static_cast<double>(parts.each) * view.recording->dt, "s"));
   middle.style = {kBlack, 4.0, {}};
   above.label = "± standard deviation";
   above.style = below.style = {kVermillion, 3.0, {}};
@@ -68,8 +64,7 @@ Panel over_time(const ReportView& view, const std::vector<double>& residual, con
   LineStyle style = measured_style();
   style.width = 2.5;
   panel.series.push_back(view.over_time("", style, residual, interval));
-  const auto samples = static_cast<double>(view.index(interval.high) - view.index(interval.low) + 1);
-  if (samples > kShownOfPixel * kColumnPixels) add_stretches(view, residual, interval, panel);
+  add_stretches(view, residual, interval, panel);
   if (shaded) panel.x_bands = gap_bands(view, interval);
   return panel;
 }

@@ -6,6 +6,7 @@
 
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
+#include "report/figure_data.h"
 
 namespace gapscope::internal::report {
 
@@ -30,6 +31,26 @@ std::vector<double> moving_mean(const std::vector<double>& values, std::size_t r
     result.push_back((sums[i + r + 1] - sums[i - r]) / static_cast<double>(2 * r + 1));
   }
   return result;
+}
+
+bool Stretches::are_a_block() const {
+  constexpr double kShownOfPixel = 4.0;  // samples of a pixel column that decimate_columns() keeps
+  const auto samples = static_cast<double>(each * means.size());
+  const double between = rms(means) * rms(means) - mean(means) * mean(means);
+  return samples > kShownOfPixel * kColumnPixels && rms(spreads) * rms(spreads) > between;
+}
+
+Stretches stretches_of(std::span<const double> values) {
+  constexpr std::size_t kStretches = 200;
+  Stretches s;
+  s.each = (values.size() + kStretches - 1) / kStretches;
+  for (std::size_t i = 0; s.each > 0 && i + s.each <= values.size(); i += s.each) {
+    const std::span<const double> part = values.subspan(i, s.each);
+    const double m = mean(part);
+    s.means.push_back(m);
+    s.spreads.push_back(std::sqrt(std::max(0.0, rms(part) * rms(part) - m * m)));
+  }
+  return s;
 }
 
 double robust_middle(const std::vector<double>& values) {

@@ -14,6 +14,16 @@ std::vector<double> times(std::span<const double> a, double factor);
 /// Mean over each sample and up to `reach` neighbours on either side, as many on both.
 std::vector<double> moving_mean(const std::vector<double>& values, std::size_t reach);
 
+/// A long trace in equal parts; what is left over at its end is in none.
+struct Stretches {
+  std::size_t each = 0;                ///< samples of one
+  std::vector<double> means, spreads;  ///< mean and standard deviation of each
+  /// Whether a line through all samples would be a black block: they differ more within the stretches than
+  /// the means do, and are more than a picture of one column has room for.
+  bool are_a_block() const;
+};
+Stretches stretches_of(std::span<const double> values);
+
 /// Middle between the 1 % and the 99 % quantile.
 double robust_middle(const std::vector<double>& values);
 /// Largest minus smallest value.

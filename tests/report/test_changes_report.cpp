@@ -57,6 +57,10 @@ TEST(ChangesReport, TheFigureShowsEveryReadingAndHoldsItsTextsApart) {
     ASSERT_EQ(figure.panels.at(0).series.size(), 3u);
     EXPECT_EQ(figure.panels[0].series[0].y.size(), 6u);
     EXPECT_EQ(figure.panels[0].series[1].y, std::vector{0.008});
+    EXPECT_EQ(figure.panels[0].title, "Estimates with 95 % intervals");
+    all.quantities.pop_back();  // of the last report nobody tells a gap then
+    EXPECT_EQ(internal::report::gap_over_recordings(all).panels.at(0).title,
+              "Estimates with 95 % intervals (none of recording_of_month_6)");
   }
 }
 

@@ -128,6 +128,25 @@ TEST(ResidualScale, TheMapShowsTheLawOfACoarseEncoderAndCountsWhatLiesOutside) {
   EXPECT_THAT(diagnosis_traces(r).panels[2].title, HasSubstr("Correcting torque below 10 Hz"));
 }
 
+TEST(ResidualScale, MeansAreDrawnWhereTheSamplesWouldBeABlackBlock) {
+  DiagnosisResult r = coarse_result();
+  r.diagnosis.budget = {};
+  const Panel means = diagnosis_traces(r).panels[2];
+  EXPECT_EQ(means.title, "Correcting torque, mean of 100 ms");
+  ASSERT_EQ(means.series.size(), 2u);
+  for (const Series& s : means.series) EXPECT_EQ(s.y.size(), 200u);
+  EXPECT_NEAR(means.series[0].x.front(), 0.0495, 1e-9) << "the middle of the first hundred samples";
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = 1; i < 9; ++i)  // a half-wave without a spike
+    before += means.series[0].y[i] / 8.0, after += means.series[1].y[i] / 8.0;
+  EXPECT_NEAR(before - after, 1.0, 1e-9);
+
+  std::vector<double>& left = r.diagnosis.traces[0].torque_after;
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = std::sin(1e-3 * static_cast<double>(i));
+  EXPECT_EQ(diagnosis_traces(r).panels[2].title, "Correcting torque") << "a line";
+  EXPECT_EQ(diagnosis_traces(r).panels[2].series[0].y.size(), 20000u);
+}
+
 TEST(ResidualScale, TheLawIsInTheFrameAndABandBeyondTheDataIsNot) {
   DiagnosisResult r = coarse_result();
   r.diagnosis.budget.nominal = 500.0;
