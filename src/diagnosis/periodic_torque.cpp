@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "diagnosis/step.h"
 #include "gapscope/base/statistics.h"
@@ -67,6 +69,49 @@ void take_out(const Harmonic& line, std::span<const MotorTrace> traces, std::vec
   }
 }
 
+/// The observer's answer run backwards in time: Σ (passed s) τ = Σ s (passed back τ) for every line s.
+std::vector<Values> passed_back(std::span<const Values> torque, std::span<const MotorTrace> traces) {
+  std::vector<Values> back(torque.begin(), torque.end());
+  for (std::size_t r = 0; r < back.size(); ++r) {
+    Passed passed(traces[r].dt);
+    for (std::size_t i = back[r].size(); i-- > 0;) back[r][i] = passed(back[r][i]);
+  }
+  return back;
+}
+
+/// Speeds that the recordings come by, of differences that an observer as fast as this follows.
+Values speeds_of(std::span<const MotorTrace> traces) {
+  constexpr std::size_t kSpeeds = 400;  // of one recording
+  Values speeds;
+  for (const MotorTrace& t : traces) {
+    const std::size_t reach = 1 + static_cast<std::size_t>(0.5 / (kMeasure.ripple_hz * t.dt));
+    for (std::size_t i = 0; i + reach < t.size(); i += 1 + t.size() / kSpeeds)
+      speeds.push_back((t.x1[i + reach] - t.x1[i]) / (static_cast<double>(reach) * t.dt));
+  }
+  return speeds;
+}
+
+/// The spectrum as far as the observer passes its lines on: of one that it follows late and in part, as the
+/// drive runs fast, what is left is not spread over its neighbours.
+std::vector<Harmonic> passed_spectrum(std::span<const Values> torque, std::span<const MotorTrace> traces) {
+  const std::vector<Values> back = passed_back(torque, traces);
+  const Values speeds = speeds_of(traces);
+  double square = 0.0, square_back = 0.0;
+  for (std::size_t r = 0; r < back.size(); ++r)
+    for (std::size_t i = 0; i < back[r].size(); ++i)
+      square += torque[r][i] * torque[r][i], square_back += back[r][i] * back[r][i];
+  std::vector<Harmonic> spectrum = angle_spectrum(back, traces, 0.0);
+  for (Harmonic& line : spectrum) {
+    double passed = 0.0;  // power of a line of unit power that two poles leave
+    for (const double w : speeds) {
+      const double f = line.periods * w / (2.0 * kPi * kMeasure.ripple_hz);
+      passed += 1.0 / ((1.0 + f * f) * (1.0 + f * f)) / static_cast<double>(speeds.size());
+    }
+    line.explained *= square_back / std::max(passed * square, 1e-300);
+  }
+  return spectrum;
+}
+
 /// Share of each line over the median of its neighbours'.
 Values standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
   Values over;
@@ -80,6 +125,24 @@ Values standing_of(const std::vector<Harmonic>& spectrum, double per_cycle) {
     over.push_back(around.empty() ? 0.0 : line.explained / std::max(median(std::move(around)), 1e-12));
   }
   return over;
+}
+
+/// The line that stands out, and its share over its neighbours': one that explains more than half of the
+/// torque, as no two can, whatever its side lobes are; else the one that is farthest above its neighbours.
+std::optional<std::pair<Harmonic, double>> standing_out(const std::vector<Harmonic>& spectrum,
+                                                        double per_cycle) {
+  if (spectrum.empty()) return {};
+  const Values over = standing_of(spectrum, per_cycle);
+  const auto strongest = static_cast<std::size_t>(
+      std::max_element(spectrum.begin(), spectrum.end(),
+                       [](const Harmonic& a, const Harmonic& b) { return a.explained < b.explained; }) -
+      spectrum.begin());
+  const bool repeats = spectrum[strongest].periods > 2.0 * per_cycle;  // more than once over the travel
+  const bool most = repeats && spectrum[strongest].explained > 0.5;
+  const std::size_t best =
+      most ? strongest : static_cast<std::size_t>(std::max_element(over.begin(), over.end()) - over.begin());
+  if (!most && !(over[best] > kLineSearch.stands_out)) return {};
+  return std::pair(spectrum[best], over[best]);
 }
 
 /// The period at the top of the parabola through what a line explains and what those beside it do.
@@ -118,13 +181,11 @@ std::vector<TorqueLine> standing_lines(std::vector<Values> torque, std::span<con
   std::vector<TorqueLine> lines;
   if (torque.size() != traces.size()) return lines;
   while (lines.size() < SearchEffort{}.lines) {
-    const std::vector<Harmonic> spectrum = angle_spectrum(torque, traces, 0.0);
-    const Values over = standing_of(spectrum, one_cycle(traces));
-    const auto best = std::max_element(over.begin(), over.end());
-    if (best == over.end() || !(*best > kLineSearch.stands_out)) break;
-    const Harmonic& found = spectrum[static_cast<std::size_t>(best - over.begin())];
-    const Harmonic line = refined(torque, traces, found.periods);
-    lines.push_back({line, *best});
+    const std::vector<Harmonic> spectrum = passed_spectrum(torque, traces);
+    const auto found = standing_out(spectrum, one_cycle(traces));
+    if (!found) break;
+    const Harmonic line = refined(torque, traces, found->first.periods);
+    lines.push_back({line, found->second});
     take_out(line, traces, torque);
   }
   return lines;

@@ -22,7 +22,8 @@ namespace internal::diagnosis {
 namespace {
 
 /// Lines that periodic effects begin with: the strongest of the correcting torque, one that stands out from
-/// its neighbours, and those whose period was given.
+/// its neighbours, and those whose period was given. A torque that does not follow the drive's begins as it
+/// stands out: an observer that is slow against it has a part of its size.
 std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback>& playbacks,
                                   std::span<const TorqueLine> standing, double torque_constant) {
   std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, study.effort.lines);
@@ -34,7 +35,16 @@ std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback
     for (const Playback& p : playbacks) torque.push_back(p.torque);
     lines.push_back(line_at(torque, study.train, torque_constant, periods));
   };
-  if (!lines.empty() && !standing.empty()) add(standing.front().line.periods);
+  if (!lines.empty() && !standing.empty()) {
+    const Harmonic& line = standing.front().line;
+    if (torque_constant == 0.0) {
+      const double apart = one_cycle(study.train);
+      std::erase_if(lines, [&](const Harmonic& l) { return std::abs(l.periods - line.periods) < apart; });
+      lines.push_back(line);
+    } else {
+      add(line.periods);
+    }
+  }
   for (const double periods : given_periods(study.options.known)) add(periods);
   return lines;
 }
