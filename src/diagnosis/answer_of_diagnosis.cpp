@@ -20,7 +20,8 @@ using internal::diagnosis::SharedUnit;
 /// gap grows is 4.2; with half of it one less is told, with double two more, 2.0 and 4.5 % off. A prediction,
 /// which an observer leads, does not say.
 bool leaves_little(const Diagnosis& d) {
-  if (!d.model_gap || d.mismatch.measure.starts_with("prediction")) return false;
+  if (!d.model_gap || internal::diagnosis::divides_one_body(d)) return false;
+  if (d.mismatch.measure.starts_with("prediction")) return false;
   const double half_width = 0.5 * (d.model_gap->ci95.high - d.model_gap->ci95.low);
   return d.mismatch.after < std::max(kRule.part * kRule.part * d.model_gap->value, half_width);
 }

@@ -180,9 +180,7 @@ std::string motion_words(const MismatchSize& m, Coordinates coordinates) {
 /// In torque against what no model gets below; else in the simulated motion.
 std::string what_is_left(const CardFacts& f, const Card& card) {
   const MismatchSize& m = f.diagnosis->mismatch;
-  const std::string floor_words = m.floor_from == FloorSource::kRepeatability
-                                      ? "what the drive itself varies by from period to period"
-                                      : "the encoder's noise";
+  const std::string floor_words = floor_of_the_motion(m);
   if (m.remains < kRule.floor_ratio) return "what is left does not show above " + floor_words;
   const ErrorBudget& b = f.diagnosis->budget;
   const double floor = b.exists() && b.uncounted.empty() && tells_torque(card) ? b.floor() : kNaN;

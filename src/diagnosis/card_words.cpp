@@ -48,6 +48,10 @@ std::string SharedUnit::with_interval_aside(double value, const Interval& ci95) 
   return interval_after(value, ci95, " (", ")");
 }
 
+bool divides_one_body(const Diagnosis& d) {
+  return std::ranges::any_of(d.added, [](const AddedEffect& a) { return a.effect == "backlash"; });
+}
+
 std::string the_gap_is() { return std::string("The backlash gap 2β") + kWhichGap + " is "; }
 
 std::string left_open(const Answer& gap) {
@@ -92,7 +96,19 @@ std::string told_without_model(const Diagnosis& d) {
   return on_load ? "that takes the motor's position, which is not recorded." : "`gapscope detect CONFIG`.";
 }
 
+/// ", as it leaves 697 times the encoder's noise (told below 10 times)"; nothing where it leaves less.
+std::string why_not_told(const MismatchSize& m) {
+  if (!(m.remains >= kRule.far)) return "";
+  return fmt::format(", as it leaves {} times {} (told below {:.3g} times)",
+                     SharedUnit(1.0, "").number(m.remains), floor_of_the_motion(m), kRule.far);
+}
+
 }  // namespace
+
+std::string floor_of_the_motion(const MismatchSize& m) {
+  return m.floor_from == FloorSource::kRepeatability ? "what the drive itself varies by from period to period"
+                                                     : "the encoder's noise";
+}
 
 std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinates) {
   constexpr const char* kElsewhere = "Not estimated here; told by `gapscope run CONFIG`.";
@@ -115,9 +131,8 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
       return "The model takes the gap as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
              "; an estimate: " + told_without_model(*diagnosis);
     case GapOrigin::kEstimated:
-      return "The fitted model does not follow the recordings well enough to tell the gap; without a "
-             "model: " +
-             told_without_model(*diagnosis);
+      return "The fitted model does not follow the recordings well enough to tell the gap" +
+             why_not_told(diagnosis->mismatch) + "; without a model: " + told_without_model(*diagnosis);
   }
   return kElsewhere;
 }

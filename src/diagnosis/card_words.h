@@ -36,6 +36,13 @@ class SharedUnit {
 /// "The backlash gap 2β (full width, at x1) is "
 std::string the_gap_is();
 
+/// Whether the gap is that of an effect that divides the one body of the model: rigid at its contact and with
+/// all friction on the motor's side, it shows that there is a gap rather than how wide it is.
+bool divides_one_body(const Diagnosis& diagnosis);
+
+/// "the encoder's noise", or what else no model of the motion gets below.
+std::string floor_of_the_motion(const MismatchSize& size);
+
 /// " (these recordings leave it open by 15 %)": of a gap whose interval is wider than a part of it, which
 /// then rests on the form of the contact's law, and nobody knows that; else empty.
 std::string left_open(const Answer& gap);

@@ -32,6 +32,12 @@ TEST(Card, SaysHowToGetWhatWasNotAskedFor) {
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The model takes the gap as known, 20 mm"));
   d.model_gap = ModelGap{GapOrigin::kEstimated, 0.02, {0.018, 0.022}};
   EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, StartsWith("The fitted model does not follow"));
+  d.mismatch.remains = 697.0;
+  EXPECT_THAT(
+      card_of(facts_of(nullptr, &d)).gap,
+      HasSubstr("to tell the gap, as it leaves 697 times the encoder's noise (told below 10 times); "));
+  d.mismatch.remains = 2.0;
+  EXPECT_THAT(card_of(facts_of(nullptr, &d)).gap, HasSubstr("to tell the gap; without a model"));
 }
 
 TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {

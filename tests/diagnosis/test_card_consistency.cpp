@@ -132,6 +132,21 @@ TEST(CardConsistency, AGapThatNobodyTellsIsReadAgainWithWhatWasFound) {
   EXPECT_THAT(gapscope::card_of(f).next, HasSubstr("Go on from what was found"));
 }
 
+TEST(CardConsistency, AGapThatDividesOneBodyIsToldWhereItExplainsAllAndElseAskedForInTheModel) {
+  Diagnosis d = of_friction_and_delay(false, true);
+  d.added.emplace_back();
+  d.added.back().effect = "backlash";
+  d.model_gap = {GapOrigin::kEstimated, 0.0328, {0.0309, 0.0348}};
+  d.mismatch.after = 6.5e-4, d.mismatch.floor = 3.2e-6;
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates::kRotation).has_value()) << "2 % of 32.8 mrad; it was 16.8";
+  EXPECT_THAT(card_of(d).next, StartsWith("Begin with a gap in the model: "));
+  d.added.back().effect = "cogging_torque";
+  EXPECT_TRUE(answer_of_diagnosis(d, Coordinates::kRotation).has_value()) << "of the model's own gap";
+  d.added.back().effect = "backlash";
+  d.mismatch.after = 3.3e-6;
+  EXPECT_EQ(answer_of_diagnosis(d, Coordinates::kRotation)->trust, AnswerTrust::kGood);
+}
+
 TEST(CardConsistency, AGapThatIsLeftOpenByAPartOfItIsNotTrustedWell) {
   Diagnosis d = of_gap();
   ASSERT_EQ(answer_of_diagnosis(d, Coordinates::kRotation)->trust, AnswerTrust::kGood);
