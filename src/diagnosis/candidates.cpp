@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/study.h"
+#include "gapscope/base/interrupt.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -40,13 +41,13 @@ std::vector<ModelEffect> with_added_held(std::vector<ModelEffect> effects, const
 /// The sheet's model with what was added held searched anew, then all of it refined. By the slow observer,
 /// which sees what a gap does; nothing where it sees next to nothing left.
 FittedModel searched_around_effects(const Study& study, const FittedModel& fitted) {
-  if (fitted.searched) return fitted;
+  if (fitted.searched || finish_requested()) return fitted;
   constexpr double hz = kMeasure.slow_hz;
   const double ratio = study.options.fit.rejected_ratio;
   FittedModel same = fitted;
   same.searched = true;
   const FittedModel slow = refined(study, fitted, hz);
-  if (!(slow.mean_cost > ratio * ratio)) return same;
+  if (!(slow.mean_cost > ratio * ratio) || finish_requested()) return same;
   study.options.progress("looking for the gap anew, with what was added");
   ReferenceModel held = study.sheet;
   held.effects = with_added_held(fitted.model.effects, study.sheet);
