@@ -96,11 +96,15 @@ std::string told_without_model(const Diagnosis& d) {
   return on_load ? "that takes the motor's position, which is not recorded." : "`gapscope detect CONFIG`.";
 }
 
-/// ", as it leaves 697 times the encoder's noise (told below 10 times)"; nothing where it leaves less.
+/// Of a gap that was fitted.
 std::string why_not_told(const MismatchSize& m) {
-  if (!(m.remains >= kRule.far)) return "";
-  return fmt::format(", as it leaves {} times {} (told below {:.3g} times)",
-                     SharedUnit(1.0, "").number(m.remains), floor_of_the_motion(m), kRule.far);
+  if (m.remains < kRule.far) return "The recordings do not determine the gap of the fitted model";
+  const std::string why =
+      std::isfinite(m.remains)
+          ? fmt::format(", as it leaves {} times {} (told below {:.3g} times)",
+                        SharedUnit(1.0, "").number(m.remains), floor_of_the_motion(m), kRule.far)
+          : "";
+  return "The fitted model does not follow the recordings well enough to tell the gap" + why;
 }
 
 }  // namespace
@@ -131,8 +135,7 @@ std::string gap_not_estimated(const Diagnosis* diagnosis, Coordinates coordinate
       return "The model takes the gap as known, " + coordinates.thousandths(diagnosis->model_gap->value) +
              "; an estimate: " + told_without_model(*diagnosis);
     case GapOrigin::kEstimated:
-      return "The fitted model does not follow the recordings well enough to tell the gap" +
-             why_not_told(diagnosis->mismatch) + "; without a model: " + told_without_model(*diagnosis);
+      return why_not_told(diagnosis->mismatch) + "; without a model: " + told_without_model(*diagnosis);
   }
   return kElsewhere;
 }
