@@ -160,7 +160,7 @@ void write_load(YamlWriter& out, const StarterChoice& choice, const Begin& begin
   const bool free = choice.structure == StarterModel::kGap;
   const JointNumbers& n = begin.numbers;
   const auto estimated = [&](const char* key, double value, const std::string& unit) {
-    write_estimated(out, key, value, unit, begin.from);
+    write_estimated(out, key, value, unit, begin);
   };
   if (free) estimated("mass_ratio", n.load_inertia / n.inertia, "load over motor");
   estimated("gap", n.gap,

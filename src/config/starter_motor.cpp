@@ -39,13 +39,19 @@ void write_anchored(YamlWriter& out, const Begin& begin, Coordinates coordinates
   out.entry("motor_damping", "{estimate: true}", coordinates.unit("N m s/rad") + "; the fit finds its start");
 }
 
+/// "{value: 0.0342, estimate: true}": what a file says in six digits, what was read in three.
+std::string start_text(double value, const Begin& begin) {
+  return begin.nominal ? fmt::format("{{value: {:.6g}, estimate: true}}", value)
+                       : fmt::format("{{value: {:.3g}, estimate: true}}", value);
+}
+
 }  // namespace
 
 void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,
-                     const std::string& from) {
+                     const Begin& begin) {
   const bool known = value > 0.0;
-  out.entry(key, known ? fmt::format("{{value: {:.3g}, estimate: true}}", value) : "{estimate: true}",
-            unit + "; " + (known ? from : "the fit finds its start"));
+  out.entry(key, known ? start_text(value, begin) : "{estimate: true}",
+            unit + "; " + (known ? begin.from : "the fit finds its start"));
 }
 
 void take_constant(Begin& begin, double constant, double ratio) {
@@ -89,9 +95,8 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     write_estimated(out, "motor_inertia", begin.numbers.inertia,
                     coordinates.unit("kg m^2") + scale + "; better the sheet's" +
                         (begin.geared ? ": {value: 3e-5, given_at: motor}, say" : ""),
-                    begin.from);
-  write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad") + scale,
-                  begin.from);
+                    begin);
+  write_estimated(out, "motor_damping", begin.numbers.damping, coordinates.unit("N m s/rad") + scale, begin);
 }
 
 namespace {
@@ -155,11 +160,11 @@ void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates) 
 namespace {
 
 /// One effect of a simulator's model, each of its numbers as a start of the fit.
-void write_effect(YamlWriter& out, const char* name,
+void write_effect(YamlWriter& out, const Begin& begin, const char* name,
                   std::initializer_list<std::pair<const char*, double>> numbers, const std::string& comment) {
   std::string text;
   for (const auto& [key, value] : numbers)
-    text += fmt::format("{}{}: {{value: {:.3g}, estimate: true}}", text.empty() ? "" : ", ", key, value);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, start_text(value, begin));
   out.entry(std::string("- ") + name, "{" + text + "}", comment);
 }
 
@@ -170,9 +175,10 @@ void write_friction(YamlWriter& out, const Begin& begin, const std::string& unit
     out.entry("- motor_coulomb_friction", "{level_nm: {estimate: true}}",
               unit + (begin.settled() ? "" : " (over torque_constant)") + "; the fit finds its start");
   else if (begin.asymmetry != 0.0)
-    write_effect(out, "friction_asymmetry", {{"level_nm", level}, {"coulomb_ratio", begin.asymmetry}}, of);
+    write_effect(out, begin, "friction_asymmetry", {{"level_nm", level}, {"coulomb_ratio", begin.asymmetry}},
+                 of);
   else
-    write_effect(out, "motor_coulomb_friction", {{"level_nm", level}}, of);
+    write_effect(out, begin, "motor_coulomb_friction", {{"level_nm", level}}, of);
 }
 
 /// A file of one joint has its motor in the armature: with a gap, what is behind that is the load.
@@ -234,15 +240,16 @@ void write_effects(YamlWriter& out, const Begin& begin, Coordinates coordinates)
   out.comment(others);
   const std::string unit = coordinates.torque_unit();
   if (n.unbalance > 0.0)
-    write_effect(out, "load_unbalance", {{"amplitude_nm", n.unbalance}, {"phase_rad", n.unbalance_phase}},
+    write_effect(out, begin, "load_unbalance",
+                 {{"amplitude_nm", n.unbalance}, {"phase_rad", n.unbalance_phase}},
                  unit + ", rad; gravity " + begin.from);
   if (n.load_constant_torque != 0.0)
-    write_effect(out, "constant_load_torque", {{"torque_nm", n.load_constant_torque}},
+    write_effect(out, begin, "constant_load_torque", {{"torque_nm", n.load_constant_torque}},
                  unit + "; " + begin.from);
   if (n.lag > 0.0)
-    write_effect(out, "actuator_lag", {{"time_constant_s", n.lag}}, "s; filter of the actuator");
+    write_effect(out, begin, "actuator_lag", {{"time_constant_s", n.lag}}, "s; filter of the actuator");
   if (clipped)
-    write_effect(out, "torque_saturation", {{"knee", n.input_limit}, {"sharpness", kHardLimit}},
+    write_effect(out, begin, "torque_saturation", {{"knee", n.input_limit}, {"sharpness", kHardLimit}},
                  "unit of u; range of the actuator, which the input exceeds");
   if (rubs) write_friction(out, begin, unit);
   out.close();

@@ -38,7 +38,7 @@ void take_constant(Begin& begin, double constant, double ratio);
 
 /// {value: ..., estimate: true} with a number that is known, else without.
 void write_estimated(YamlWriter& out, const char* key, double value, const std::string& unit,
-                     const std::string& from);
+                     const Begin& begin);
 
 /// Torque constant, inertia and damping.
 void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates);

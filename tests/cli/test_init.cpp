@@ -160,7 +160,7 @@ TEST(Init, TakesGravityOfAMuJoCoModelAndSaysWhatItLeavesAside) {
   EXPECT_EQ(init.status, 0) << init.err;
   const std::string yaml = testing::text_of(place.folder() / "drive.yaml");
   EXPECT_THAT(yaml, HasSubstr("name: drive  #"));
-  EXPECT_THAT(yaml, HasSubstr("- load_unbalance: {amplitude_nm: {value: 0.0589, estimate: true}, phase_rad: "
+  EXPECT_THAT(yaml, HasSubstr("- load_unbalance: {amplitude_nm: {value: 0.05886, estimate: true}, phase_rad: "
                               "{value: 0, estimate: true}}"));
   EXPECT_THAT(yaml, HasSubstr("torque_constant: {value: 1, guess: true}"));
   for (const std::string& said : {yaml, init.err}) {
