@@ -57,6 +57,19 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
       c.input_facts());
 }
 
+/// Whoever excludes a cause gets the next best name for it; empty where none was looked for.
+std::string excluded_words(const Configuration& c, const Diagnosis& d) {
+  constexpr std::size_t kNamed = 3;
+  if (c.excluded.empty() || d.verdict == DiagnosisVerdict::kNone) return "";
+  std::vector<std::string> names;
+  for (const std::string& effect : c.excluded) names.push_back(readable(effect));
+  return fmt::format(
+      "{} {} no candidate, as was asked for (exclude): if that is missing, something else stands for it.",
+      names.size() > kNamed ? fmt::format("{} effects of the catalogue", names.size())
+                            : fmt::format("{}", fmt::join(names, ", ")),
+      names.size() > 1 ? "were" : "was");
+}
+
 /// A servo that holds a position takes goals, not inputs.
 bool takes_goals(const Configuration& c) {
   return c.recording && !c.recording->reading.columns.target.empty();
@@ -150,8 +163,9 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   d.better_swapped = swapped;
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
-  for (std::string more : {internal::run::hanging_warning(c, d.fitted),
-                           internal::run::doubtful_delay(c, recordings.train.motor_traces(), d)})
+  for (std::string more :
+       {internal::run::hanging_warning(c, d.fitted),
+        internal::run::doubtful_delay(c, recordings.train.motor_traces(), d), excluded_words(c, d)})
     if (!more.empty()) warnings.push_back(std::move(more));
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   for (std::string& warning : d.warnings) warning = with_input_unit(warning, c.input_facts());

@@ -91,6 +91,7 @@ TEST(Commands, DiagnoseNamesWhatTheModelLacksBesideTheEstimates) {
   ASSERT_EQ(diagnosed.status, 0) << diagnosed.err;
   EXPECT_THAT(diagnosed.out, HasSubstr("motor_coulomb_friction"));
   EXPECT_THAT(diagnosed.err, HasSubstr("last third"));
+  EXPECT_THAT(diagnosed.err, HasSubstr("effects of the catalogue were no candidate, as was asked for"));
   const auto content = place.content();
   for (const char* file : {"diagnosis.json", "fitted.yaml", "diagnosis.png", "result.json", "overview.png",
                            "traces/held_out_1_quick.csv", "traces/1_quick.csv"})
