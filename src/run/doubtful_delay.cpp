@@ -46,8 +46,10 @@ std::string doubtful_delay(const Configuration& c, std::vector<MotorTrace> fitte
     if (beginning.empty())
       beginning = fmt::format(
           "{} begins with its input on while the motor still stands ({:.3g} units of u, {:.3g} ms): what was "
-          "sent before the first row is not in it. Leave out the beginning: recording: window: [{:.4g}, "
-          "{:.4g}]. Without it the",
+          "sent before the first row is not in it, and no model follows that. Leave out the beginning and "
+          "diagnose again, `recording: {{window: [{:.4g}, {:.4g}]}}`: what helps and what is left can "
+          "change, "
+          "and the",
           trace.file, trace.u.front(), 1e3 * *stands, trace.start + kLater, trace.time(trace.size() - 1));
     trace = part(trace, later, trace.size() - later);
   }
@@ -55,8 +57,8 @@ std::string doubtful_delay(const Configuration& c, std::vector<MotorTrace> fitte
   const std::optional<FittedParameter> without = delay_without(fitted, d.fitted, c.fit, *delay);
   const double with = delay->parameters.front().value;
   if (!without || (without->ci95.low <= with && with <= without->ci95.high)) return "";
-  return fmt::format("{} {} comes out as {:.3g} ms, not {:.3g} ms.", beginning, readable(delay->entry->name),
-                     1e3 * without->value, 1e3 * with);
+  return fmt::format("{} {} then comes out as {:.4g} ms, not {:.4g} ms.", beginning,
+                     readable(delay->entry->name), 1e3 * without->value, 1e3 * with);
 }
 
 }  // namespace gapscope::internal::run
