@@ -169,9 +169,8 @@ std::string step_to_the_gap(const CardFacts& f) {
   const bool told = f.answer != nullptr && f.answer->trust != AnswerTrust::kNone;
   if (!fitted || told || d.added.empty()) return "";
   if (divides_one_body(d))
-    return "Begin with a gap in the model: write the configuration again with `gapscope init ... --model "
-           "gap` "
-           "(and the motor's own inertia, `--inertia`, where its sheet has it), and diagnose that.";
+    return "Begin with a gap in the model: write the configuration again with `gapscope init ... --model gap`"
+           " (and the motor's own inertia, `--inertia`, where its sheet has it), and diagnose that.";
   return "Read the gap with what was found in the model: `gapscope run CONFIG --model-from DIR/fitted.yaml "
          "-o DIR_gap`.";
 }

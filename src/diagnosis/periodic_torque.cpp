@@ -91,8 +91,8 @@ Values speeds_of(std::span<const MotorTrace> traces) {
   return speeds;
 }
 
-/// The spectrum as far as the observer passes its lines on: of one that it follows late and in part, as the
-/// drive runs fast, what is left is not spread over its neighbours.
+/// What each line explains, as the observer passes it on: one that it follows late and in part, as the drive
+/// runs fast, is not spread over its neighbours. Amplitudes are those of fitted_line().
 std::vector<Harmonic> passed_spectrum(std::span<const Values> torque, std::span<const MotorTrace> traces) {
   const std::vector<Values> back = passed_back(torque, traces);
   const Values speeds = speeds_of(traces);
@@ -102,7 +102,7 @@ std::vector<Harmonic> passed_spectrum(std::span<const Values> torque, std::span<
       square += torque[r][i] * torque[r][i], square_back += back[r][i] * back[r][i];
   std::vector<Harmonic> spectrum = angle_spectrum(back, traces, 0.0);
   for (Harmonic& line : spectrum) {
-    double passed = 0.0;  // power of a line of unit power that two poles leave
+    double passed = speeds.empty() ? 1.0 : 0.0;  // power of a line of unit power that two poles leave
     for (const double w : speeds) {
       const double f = line.periods * w / (2.0 * kPi * kMeasure.ripple_hz);
       passed += 1.0 / ((1.0 + f * f) * (1.0 + f * f)) / static_cast<double>(speeds.size());
