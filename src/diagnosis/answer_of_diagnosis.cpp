@@ -18,9 +18,9 @@ using internal::diagnosis::SharedUnit;
 /// noise: less than its interval is wide, or a hundredth of it. Of the 41 drives of `study_diagnosis 7530001
 /// 33 unstarted FILE` and `7530035 8` four that are told by the latter are 0.0 to 0.5 % off, and one whose
 /// gap grows is 4.2; with half of it one less is told, with double two more, 2.0 and 4.5 % off. A prediction,
-/// which an observer leads, does not say.
+/// which an observer leads, does not say, nor does a search that was stopped: it may be anywhere.
 bool leaves_little(const Diagnosis& d) {
-  if (!d.model_gap || internal::diagnosis::divides_one_body(d)) return false;
+  if (!d.model_gap || d.stopped || internal::diagnosis::divides_one_body(d)) return false;
   if (d.mismatch.measure.starts_with("prediction")) return false;
   const double half_width = 0.5 * (d.model_gap->ci95.high - d.model_gap->ci95.low);
   return d.mismatch.after < std::max(kRule.part * kRule.part * d.model_gap->value, half_width);

@@ -61,6 +61,9 @@ TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited) << "as the interval says";
   d.model_gap->value = 0.25, d.model_gap->ci95 = {0.249, 0.251};
   EXPECT_EQ(answer_of_diagnosis(d, Coordinates())->trust, AnswerTrust::kLimited) << "0.8 % of the gap";
+  d.stopped = true;
+  EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value());
+  d.stopped = false;
   d.mismatch.measure = "prediction of an observer at 30 Hz";
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value());
   d.mismatch.measure = "";
