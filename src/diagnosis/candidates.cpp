@@ -41,7 +41,7 @@ std::vector<ModelEffect> with_added_held(std::vector<ModelEffect> effects, const
 /// The sheet's model with what was added held searched anew, then all of it refined. By the slow observer,
 /// which sees what a gap does; nothing where it sees next to nothing left.
 FittedModel searched_around_effects(const Study& study, const FittedModel& fitted) {
-  if (fitted.searched || finish_requested()) return fitted;
+  if (fitted.searched) return fitted;
   constexpr double hz = kMeasure.slow_hz;
   const double ratio = study.options.fit.rejected_ratio;
   FittedModel same = fitted;
@@ -127,6 +127,7 @@ bool seeks_gap(const ReferenceModel& sheet) {
 }
 
 FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
+  if (finish_requested()) return fitted;
   if (seeks_gap(study.sheet)) return searched_around_effects(study, fitted);
   const auto is_start = [](const ParameterSetting& p) { return p.estimate && !std::isnan(p.value); };
   const auto& drive = study.sheet.parameters;

@@ -27,8 +27,8 @@ namespace {
 std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback>& playbacks,
                                   std::span<const TorqueLine> standing, double torque_constant) {
   std::vector<Harmonic> lines = strongest_lines(playbacks, study.train, torque_constant, study.effort.lines);
+  const double apart = one_cycle(study.train);
   const auto add = [&](double periods) {
-    const double apart = one_cycle(study.train);
     for (const Harmonic& l : lines)
       if (std::abs(l.periods - periods) < apart) return;
     std::vector<std::vector<double>> torque;
@@ -38,7 +38,6 @@ std::vector<Harmonic> first_lines(const Study& study, const std::vector<Playback
   if (!lines.empty() && !standing.empty()) {
     const Harmonic& line = standing.front().line;
     if (torque_constant == 0.0) {
-      const double apart = one_cycle(study.train);
       std::erase_if(lines, [&](const Harmonic& l) { return std::abs(l.periods - line.periods) < apart; });
       lines.push_back(line);
     } else {

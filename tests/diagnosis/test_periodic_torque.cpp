@@ -40,7 +40,7 @@ TEST(PeriodicTorque, IsFoundAtAPeriodThatNobodyHasGiven) {
 TEST(PeriodicTorque, IsNotFoundWhereThereIsNone) { EXPECT_TRUE(left_by_nominal(0.0).empty()); }
 
 /// What an observer of two poles at 150 Hz, in continuous time, makes of a detent of 8 mN m, 12 per turn, on
-/// a motion that comes to `fastest` [rad/s]: at 60 the detent is one of 115 Hz, and follows half a turn late.
+/// a motion that comes to `fastest` [rad/s]: at 60 the detent is one of 115 Hz, and follows 75 degrees late.
 std::vector<TorqueLine> lines_at_speed(double fastest) {
   constexpr int kSubsteps = 50;
   constexpr double kStep = 1e-3;

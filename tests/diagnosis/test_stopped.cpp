@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "blind/blind_pair.h"
+#include "diagnosis/candidates.h"
 #include "diagnosis/fitted_model.h"
 #include "diagnosis/step.h"
 #include "diagnosis/verdict.h"
@@ -110,6 +111,28 @@ TEST(StoppedDiagnosis, LeavesCausesOpenThatFurtherStepsCouldHaveTaken) {
   added.after.median_free = added.after.median_innovation = 1.0;
   tell_stopped(study, added, false, found);
   EXPECT_FALSE(found.stopped) << "at the floor";
+}
+
+TEST(StoppedDiagnosis, BeginsNoSearchForTheGap) {
+  using namespace internal::diagnosis;
+  const blind::BlindPair pair = blind::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  int searches = 0;
+  DiagnosisOptions options;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  options.progress = [&](const std::string& what) {
+    searches += what.starts_with("looking for the gap anew");
+  };
+  ReferenceModel sheet = pair.sheet;
+  sheet.parameters[place::kGap] = ParameterSetting::sought(kNaN);  // without a value to begin with
+  const Study study = make_study(train, held_out, sheet, options);
+  const FittedModel nominal = fit_nominal(train, pair.sheet, options.fit, study.observer_hz);
+  searched_from_sheet(study, nominal);
+  EXPECT_EQ(searches, 1);
+  const FinishFirst first;
+  request_finish();
+  EXPECT_EQ(searched_from_sheet(study, nominal).mean_cost, nominal.mean_cost);
+  EXPECT_EQ(searches, 1);
 }
 
 }  // namespace
