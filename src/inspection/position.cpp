@@ -8,7 +8,9 @@
 #include <span>
 
 #include "inspection/rules.h"
+#include "recording/resample.h"
 #include "signals/encoder.h"
+#include "signals/fresh_rows.h"
 
 namespace gapscope::internal::inspection {
 namespace {
@@ -19,7 +21,6 @@ constexpr double kFastestRotation = 3000.0;  ///< no motor turns faster [rad/s]
 constexpr double kFastestSlide = 50.0;       ///< no axis moves faster [m/s]
 constexpr double kJump = 10.0;               ///< step over those around it
 constexpr double kSmallestJump = 20.0;       ///< … and over the noise of one position
-constexpr double kMostHeld = 0.3;  ///< share of samples of fast motion that stand still all the same
 
 /// Counts per turn that encoders are made with, beside the powers of two.
 constexpr std::array kDecimalCounts = {1000.0, 2000.0,  2500.0,  4000.0,  5000.0,
@@ -57,6 +58,13 @@ double fastest(const Material& m) {
 
 Finding wrong_unit(const std::string& found, const std::string& advice) {
   return {kPositionUnitRule, Severity::kSpoils, found, advice};
+}
+
+/// "nd" of 2, "rd" of 43, "th" of 11 and of what is no whole number.
+const char* ordinal(double n) {
+  const long whole = std::lround(n), last = whole % 10;
+  if (std::abs(n - static_cast<double>(whole)) > 1e-6 || whole / 10 % 10 == 1) return "th";
+  return last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
 }
 
 double median_of_four(std::array<double, 4> v) {
@@ -153,14 +161,28 @@ Finding check_jumps(const Material& m, RecordingFacts&) {
 }
 
 Finding check_hold(const Material& m, RecordingFacts&) {
-  if (!m.moves()) return {"fresh samples", Severity::kNote, "cannot be told without motion", "see travel"};
-  const signals::HeldSamples h = signals::held_samples(m.recording.motor_trace());
-  if (h.share < kMostHeld) return {"fresh samples", Severity::kFine, "x1 is read anew for every row", ""};
-  const double rate = 1.0 / (m.recording.dt * h.every);
-  return {"fresh samples", Severity::kSpoils,
-          fmt::format("x1 changes in every {}th row only while it moves: read at some {:.4g} Hz and held",
-                      figure(h.every, 2), rate),
-          fmt::format("record at the rate of the encoder, or recording: resample: {{rate: {:.4g}}}", rate)};
+  constexpr const char* kRule = "fresh samples";
+  const signals::FreshRows rows = signals::fresh_rows(m.rows.x1, m.recording.quantum);
+  if (rows.filling == signals::Filling::kNone)
+    return {kRule, Severity::kFine, "x1 is read anew for every row", ""};
+  if (!rows.are_filled())
+    return {kRule, Severity::kNote, "cannot be told: x1 changes too seldom",
+            "a faster or longer motion would show whether x1 is read anew for every row"};
+  const double rate = 1.0 / (recording::mean_step(m.rows) * rows.every);
+  const bool held = rows.filling == signals::Filling::kHeld;
+  const std::string found =
+      held ? fmt::format("x1 changes in every {}{} row only: read at some {:.4g} Hz and held",
+                         figure(rows.every, 2), ordinal(rows.every), rate)
+           : fmt::format(
+                 "x1 changes its speed in every {}{} row only: read at some {:.4g} Hz and interpolated",
+                 figure(rows.every, 2), ordinal(rows.every), rate);
+  if (m.resampled && m.recording.dt * rate > 0.99)
+    return {kRule, Severity::kNote, found, "resampled so slowly that each row is a reading"};
+  return {kRule, Severity::kSpoils, found,
+          fmt::format(
+              "record at the rate of the encoder, or take each reading once, recording: resample: {{rate: "
+              "{:.4g}}}",
+              rate)};
 }
 
 }  // namespace gapscope::internal::inspection

@@ -24,19 +24,13 @@ double encoder_quantum(const MotorTrace& trace);
 /// [rad].
 double quantum_or_least_step(std::span<const double> x1);
 
-/// What the encoder alone leaves: q/√12 of the quantum the trace comes with, or its noise if that is larger
-/// [rad]. Never 0.
+/// What the encoder alone leaves: q/√12 of the quantum the trace comes with, or its noise at rest if that is
+/// larger [rad]. Never 0, and nothing of the motion: a floor that grew with what a model leaves would forgive
+/// it.
 double encoder_floor(const MotorTrace& trace);
 
 /// Whether a way is more than one count, to the nearest: the last count of a drive that stands flickers, too.
 /// @param floor  encoder_floor(), of which one count is √12 [rad]
 bool exceeds_a_count(double way, double floor);
-
-/// Whether x1 is read anew for every row: the share of the samples of fast motion (three quanta a sample) in
-/// which it stands still, and how many rows come to one that moves. None stands still without fast motion.
-struct HeldSamples {
-  double share = 0.0, every = 1.0;
-};
-HeldSamples held_samples(const MotorTrace& trace);
 
 }  // namespace gapscope::internal::signals

@@ -12,10 +12,12 @@ std::vector<double> fourth_differences(std::span<const double> y);
 /// σ of white noise on a signal [unit of y]: the median size of its fourth differences.
 double noise_from_differences(std::span<const double> y);
 
-/// The same, of their spread about their median: what they have in common is none of the noise.
+/// The same where y is nearest to rest, of their spread about their median: what they have in common is none
+/// of the noise, nor is a motion that curves or jerks elsewhere. Taken from that quarter of all windows of 16
+/// samples in which y travels least; of few samples from all.
 /// @param stamps  time of each sample, for divided differences, which smooth motion leaves as well [s];
-/// empty:
-///                evenly sampled
-double noise_from_spread(std::span<const double> y, std::span<const double> stamps = {});
+/// empty: evenly
+///                sampled
+double noise_at_rest(std::span<const double> y, std::span<const double> stamps = {});
 
 }  // namespace gapscope::internal::signals

@@ -51,19 +51,15 @@ TEST(Encoder, OfAPositionThatHardlyMovesTheSmallestStepIsTheQuantum) {
   EXPECT_NEAR(quantum_or_least_step(x1), 0.01, 1e-12);
 }
 
-TEST(Encoder, SamplesThatAreReadInEveryThirdRowOnlyAreHeld) {
-  Periodic p;
-  p.quantum = 1e-5;
-  MotorTrace trace = p.trace(6.0);
-  EXPECT_LT(held_samples(trace).share, 0.01);
-  for (std::size_t i = 0; i < p.x1.size(); ++i) p.x1[i] = p.x1[i - i % 3];
-  EXPECT_NEAR(held_samples(trace).share, 2.0 / 3.0, 0.01);
-  EXPECT_NEAR(held_samples(trace).every, 3.0, 0.1);
-}
-
-TEST(Encoder, WithoutFastMotionNoSampleIsHeld) {
-  Periodic p;  // a millirad a count: never three of them in a sample
-  EXPECT_EQ(held_samples(p.trace(6.0)).share, 0.0);
+TEST(Encoder, TheFloorIsNoneOfTheMotionHoweverSeldomItIsRead) {
+  const auto sensor = independent_plant::BlindSensor::with_bits(16);
+  Recording r = rig(sensor);
+  for (const std::size_t n : {1u, 2u, 4u}) {
+    Recording seldom = r;
+    seldom.x1.clear(), seldom.u.clear(), seldom.dt = r.dt * static_cast<double>(n);
+    for (std::size_t i = 0; i < r.size(); i += n) seldom.x1.push_back(r.x1[i]), seldom.u.push_back(r.u[i]);
+    EXPECT_NEAR(encoder_floor(seldom.motor_trace()), rounding_noise(r.quantum), 0.02 * r.quantum) << n;
+  }
 }
 
 }  // namespace

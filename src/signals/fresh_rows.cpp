@@ -1,0 +1,114 @@
+#include "signals/fresh_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "gapscope/base/statistics.h"
+
+namespace gapscope::internal::signals {
+namespace {
+
+/// Distances that have to tell before anything is told: rows that are read anew have 20 even ones in a row
+/// once in a million times.
+constexpr std::size_t kFewestDistances = 20;
+constexpr double kNearlyAll = 0.95;            ///< of them: a lost row puts one of them off
+constexpr std::size_t kLongestFilling = 1000;  ///< rows; longer ones are rests
+constexpr double kFastQuanta = 3.0;            ///< a row at which no row of a smooth motion stands still
+constexpr std::size_t kFastSteps = 8;          ///< over which the motion is fast
+constexpr std::size_t kFewestFastSteps = 96;
+constexpr double kMostHeld =
+    1.4;  ///< rows a reading, in the mean of fast motion, that noise and lost ones make
+
+/// What is none of rounding to digits: of x, and of its second difference in quanta.
+constexpr double kDigits = 2e-7;  ///< of the travel
+constexpr double kLeastPart = 1e-3, kMostPart = 0.05;
+
+/// A row at which something new shows.
+struct News {
+  std::size_t row = 0;
+  double size = 0.0;  ///< of the difference [rad]
+};
+
+double travel_of(std::span<const double> x) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return *high - *low;
+}
+
+std::vector<News> steps_in(std::span<const double> x) {
+  std::vector<News> news;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (x[i] != x[i - 1]) news.push_back({i, std::abs(x[i] - x[i - 1])});
+  return news;
+}
+
+std::vector<News> bends_in(std::span<const double> x, double quantum) {
+  std::vector<News> news;
+  double largest = 0.0;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    news.push_back({i, std::abs(x[i - 1] - 2.0 * x[i] + x[i + 1])});
+    largest = std::max(largest, news.back().size);
+  }
+  const double digits = kDigits * travel_of(x);
+  const double least = quantum > 0.0 ? std::clamp(digits, kLeastPart * quantum, kMostPart * quantum)
+                                     : std::max(digits, 1e-4 * largest);
+  std::erase_if(news, [&](const News& n) { return n.size <= least; });
+  return news;
+}
+
+/// Distances between news. One that repeats the last one by single quanta tells nothing: so does a steady
+/// speed.
+std::vector<std::size_t> telling_distances(const std::vector<News>& news, double quantum) {
+  std::vector<std::size_t> telling;
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < news.size(); ++i) {
+    const std::size_t distance = news[i].row - news[i - 1].row;
+    if (distance != last || news[i].size > 1.5 * quantum) telling.push_back(distance);
+    last = distance;
+  }
+  return telling;
+}
+
+/// The largest number that nearly all distances are multiples of; 0: too few tell.
+std::size_t common_distance(const std::vector<std::size_t>& distances) {
+  if (distances.size() < kFewestDistances) return 0;
+  const double enough = kNearlyAll * static_cast<double>(distances.size());
+  for (std::size_t n = std::min(kLongestFilling, *std::max_element(distances.begin(), distances.end()));
+       n > 1; --n) {
+    const auto multiples =
+        std::count_if(distances.begin(), distances.end(), [n](auto d) { return d % n == 0; });
+    if (static_cast<double>(multiples) >= enough) return n;
+  }
+  return 1;
+}
+
+/// Mean distance of steps in fast motion, in which rows that are read anew hardly ever stand still; 1 where
+/// there is too little of it.
+double rows_of_fast_motion(std::span<const double> x, const std::vector<News>& steps, double quantum) {
+  double rows = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = kFastSteps; i < steps.size(); i += kFastSteps) {
+    const std::size_t from = steps[i - kFastSteps].row, to = steps[i].row;
+    const double taken = static_cast<double>(to - from);
+    if (taken > kLongestFilling * kFastSteps || std::abs(x[to] - x[from]) < kFastQuanta * quantum * taken)
+      continue;
+    rows += taken, count += kFastSteps;
+  }
+  return count < kFewestFastSteps ? 1.0 : rows / static_cast<double>(count);
+}
+
+}  // namespace
+
+FreshRows fresh_rows(std::span<const double> x, double quantum) {
+  if (x.size() < 3) return {};
+  const std::vector<News> steps = steps_in(x), bends = bends_in(x, quantum);
+  const std::size_t held = common_distance(telling_distances(steps, quantum));
+  if (held > 1) return {Filling::kHeld, static_cast<double>(held)};
+  if (const double rows = rows_of_fast_motion(x, steps, quantum); rows > kMostHeld)
+    return {Filling::kHeld, rows};
+  const std::size_t bent = common_distance(telling_distances(bends, quantum));
+  if (bent > 1) return {Filling::kInterpolated, static_cast<double>(bent)};
+  return {held == 0 ? Filling::kCannotBeTold : Filling::kNone, 1.0};
+}
+
+}  // namespace gapscope::internal::signals
