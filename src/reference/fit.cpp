@@ -31,6 +31,11 @@ FittedParameter fitted(const Parameter& p, const Determination& determined, doub
   return f;
 }
 
+/// An interval about a value, with an error that its likelihood does not know.
+Interval widened(const Interval& i, double value, double half) {
+  return {value - std::hypot(value - i.low, half), value + std::hypot(i.high - value, half)};
+}
+
 /// @returns the simulations that profiles took
 double report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
   double simulations = 0.0;
@@ -48,7 +53,7 @@ double report_parameters(const FitProblem& problem, const FitOutcome& outcome, F
       if (problem.options.profile && f.identifiable) {
         const Profile profile = profile_interval(problem, outcome.solution, outcome.objective_hz, i,
                                                  {determined.own[i], determined.linear[i]});
-        f.profile_ci95 = profile.interval;
+        f.profile_ci95 = widened(profile.interval, f.value, determined.quantile * determined.timing[i]);
         simulations += profile.simulations;
       }
       ++i;
@@ -84,6 +89,7 @@ void report_motion(const FitProblem& problem, const FitOutcome& outcome, FitSumm
   summary.innovation_rmse = prediction_error(problem, summary.traces);
   summary.mode_errors = errors_by_mode(problem, summary.traces);
   test_residuals(problem, outcome.objective_hz == 0.0, summary);
+  summary.input_timing = outcome.information.timing;
   summary.lag1_autocorrelation = outcome.information.correlation.lag1;
 }
 

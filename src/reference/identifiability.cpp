@@ -89,15 +89,6 @@ Directions directions_of(const FitProblem& problem, const FitPoint& at, const In
   return d;
 }
 
-/// Variances of all free numbers in solver units.
-Eigen::VectorXd variances(const Information& info, const Eigen::MatrixXd& inverse) {
-  const double count = std::max(2, info.window_count);
-  const Eigen::VectorXd white = info.variance * info.inflation * inverse.diagonal();
-  const Eigen::VectorXd scatter = count / (count - 1.0) * (inverse * info.windows * inverse).diagonal();
-  const Eigen::VectorXd counts = (inverse * info.quantiser * inverse).diagonal();
-  return white.cwiseMax(scatter).cwiseMax(counts);
-}
-
 /// The parameter that another one is confounded with most; empty below a correlation of 0.95.
 std::string partner(const FitProblem& problem, const Eigen::MatrixXd& inverse, std::size_t i) {
   double strongest = 0.95;
@@ -146,7 +137,7 @@ Determination determine(const FitProblem& problem, const FitPoint& at, const Inf
                         const std::vector<double>& shift) {
   const std::size_t n = problem.free_count();
   Determination determined;
-  determined.std = determined.own = determined.linear = std::vector<double>(n, kNaN);
+  determined.std = determined.own = determined.linear = determined.timing = std::vector<double>(n, kNaN);
   determined.identifiable.assign(n, info.valid);
   if (!info.valid) {
     for (std::size_t i = 0; i < n; ++i)
@@ -159,15 +150,16 @@ Determination determine(const FitProblem& problem, const FitPoint& at, const Inf
     determined.warnings.push_back(words::no_trace(problem.free_parameter(i).key));
   }
   const Directions d = directions_of(problem, at, info, determined);
-  const Eigen::VectorXd variance = variances(info, d.inverse);
   for (std::size_t i = 0; i < n; ++i) {
     if (!determined.identifiable[i]) continue;
     const double slope = problem.free_parameter(i).coordinate.slope(at.q[i]);
     const auto k = static_cast<Eigen::Index>(i);
-    determined.own[i] = slope * std::sqrt(variance[k]);
+    determined.own[i] = slope * std::sqrt(variance_along(info, d.inverse.col(k), d.inverse(k, k)));
     determined.linear[i] = slope * std::sqrt(d.inverse(k, k));
-    judge(problem, at, d, i, shift.empty() ? determined.own[i] : std::hypot(determined.own[i], shift[i]),
-          determined);
+    determined.timing[i] =
+        info.by_timing.size() == 0 ? 0.0 : std::abs(slope * info.by_timing[k]) * info.timing.open_rows();
+    const double std = std::hypot(determined.own[i], shift.empty() ? 0.0 : shift[i], determined.timing[i]);
+    judge(problem, at, d, i, std, determined);
   }
   advise(problem, at, determined);
   return determined;

@@ -10,6 +10,7 @@ constexpr int kWindows = 24;  ///< the recordings are cut into about so many, fo
 constexpr int kPlaces = 21;   ///< of the counts under the motion that are tried, on a lattice with
 constexpr int kLattice = 8;   ///< this generator: both are Fibonacci numbers
 constexpr std::size_t kMostLags = 2000;
+constexpr double kTriedDelay = 0.1;  ///< for a derivative; half and double of it give the same [rows]
 
 /// One recording's part: its residuals and Jacobian, and where its columns go.
 struct Part {
@@ -127,37 +128,141 @@ double inflation_of(const std::vector<Part>& parts) {
   return std::max(1.0, 2.0 * sum / zero - 1.0);
 }
 
-Correlation correlation_of(const FitProblem& problem, const std::vector<Eigen::VectorXd>& residuals) {
+Correlation correlation_of(const FitProblem& problem, const std::vector<Part>& parts) {
   constexpr int kFewPhases = 4;
   double zero = 0.0, one = 0.0, quantised = 0.0;
-  for (std::size_t r = 0; r < residuals.size(); ++r) {
-    zero += residuals[r].squaredNorm();
-    one += autocovariance(residuals[r], 1);
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const Eigen::VectorXd& residuals = parts[r].residuals;
+    zero += residuals.squaredNorm();
+    one += autocovariance(residuals, 1);
     const MotorTrace& recording = problem.recordings[r];
-    const Quantiser quantiser(residuals[r], recording, problem.floors[r]);
+    const Quantiser quantiser(residuals, recording, problem.floors[r]);
     if (quantiser.size == 0.0) continue;
     for (int j = 0; j < kFewPhases; ++j)
       quantised +=
-          autocovariance(quantiser.error(residuals[r], recording, {j / double(kFewPhases)}), 1) / kFewPhases;
+          autocovariance(quantiser.error(residuals, recording, {j / double(kFewPhases)}), 1) / kFewPhases;
   }
   if (!(zero > 0.0)) return {0.0, 0.0, 0.0};
   return {one / zero, quantised / zero, 0.0};
 }
 
+/// Residuals and derivatives of each recording; empty where the motion diverges.
+std::vector<Part> parts_at(const Cost& cost, const Cost::Vector& x, double& simulations) {
+  std::vector<Part> parts;
+  for (std::size_t r = 0; r < cost.recordings(); ++r) {
+    parts.push_back(part_of(cost, r));
+    const Evaluation done = cost.evaluate(r, x, parts[r].residuals.data(), parts[r].jacobian.data());
+    simulations += done.simulations;
+    if (!done.valid) return {};
+  }
+  return parts;
+}
+
+/// Adds the derivative by a delay of the input, in rows, as the last column of each part.
+/// @returns false where the delay is a number of the model or of a controller that makes the input, or the
+/// motion diverges
+bool add_delay(const FitProblem& problem, const FitPoint& at, double observer_hz, std::vector<Part>& parts,
+               double& simulations) {
+  const auto& effects = problem.effects;
+  if (problem.controller || std::find(effects.begin(), effects.end(), &pure_delay()) != effects.end())
+    return false;
+  std::vector<MotorTrace> later(problem.recordings.begin(), problem.recordings.end());
+  for (MotorTrace& r : later) {
+    if (!r.sent.empty()) return false;
+    r.sent = r.u, r.delay = kTriedDelay * r.dt;
+  }
+  FitProblem delayed = problem;
+  delayed.recordings = later;
+  const Cost cost(delayed, at, observer_hz);
+  const Cost::Vector x = cost.pack(at);
+  std::vector<Eigen::VectorXd> residuals;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    residuals.emplace_back(cost.samples(r));
+    const Evaluation done = cost.evaluate(r, x, residuals[r].data(), nullptr);
+    simulations += done.simulations;
+    if (!done.valid) return false;
+  }
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    Part& p = parts[r];
+    p.jacobian.conservativeResize(Eigen::NoChange, p.jacobian.cols() + 1);
+    p.jacobian.rightCols<1>() = (residuals[r] - p.residuals) / kTriedDelay;
+    p.columns.push_back(cost.size());
+  }
+  return true;
+}
+
+/// The matrices, and what the residuals alone say.
+void add_up(const FitProblem& problem, const std::vector<Part>& parts, Eigen::Index columns,
+            Information& sum) {
+  double samples = 0.0, squares = 0.0, quantised = 0.0;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const double size = static_cast<double>(parts[r].residuals.size());
+    samples += size;
+    squares += parts[r].residuals.squaredNorm();
+    quantised += size * std::pow(problem.recordings[r].quantum / problem.floors[r], 2) / 12.0;
+  }
+  sum.normal = sum.windows = sum.quantiser = Eigen::MatrixXd::Zero(columns, columns);
+  const auto length = static_cast<Eigen::Index>(std::ceil(samples / kWindows));
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const Part& p = parts[r];
+    scatter(p.jacobian.transpose() * p.jacobian, p.columns, sum.normal);
+    scatter(window_scores(p, length, sum.window_count), p.columns, sum.windows);
+    scatter(quantiser_scores(p, problem.recordings[r], problem.floors[r]), p.columns, sum.quantiser);
+  }
+  sum.variance = std::max(squares, quantised) / std::max(1.0, samples - static_cast<double>(columns));
+  sum.inflation = inflation_of(parts);
+}
+
+/// Half of the slope of the cost along each column.
+Eigen::VectorXd score_of(const Cost& cost, const Cost::Vector& x, const std::vector<Part>& parts) {
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(cost.size() + 1);
+  for (Eigen::Index i = 0; i < cost.size(); ++i)
+    score[i] = cost.beside_residual(i, x[i]) * cost.beside_slope(i, x[i]);
+  for (const Part& p : parts) {
+    const Eigen::VectorXd part = p.jacobian.transpose() * p.residuals;
+    for (std::size_t i = 0; i < p.columns.size(); ++i)
+      score[p.columns[i]] += part[static_cast<Eigen::Index>(i)];
+  }
+  return score;
+}
+
+/// Takes the delay, the last column, out of the matrices again: what a Gauss–Newton step of all numbers with
+/// it makes of it, and how the others follow.
+void take_timing(const Eigen::VectorXd& score, Information& i) {
+  const Eigen::Index n = score.size() - 1;
+  const Eigen::VectorXd scale = i.normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * i.normal * scale.asDiagonal();
+  const Eigen::VectorXd last =
+      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(scaled).solve(Eigen::VectorXd::Unit(n + 1, n));
+  const Eigen::VectorXd row = scale[n] * scale.cwiseProduct(last);  // of the inverse
+  if (row.allFinite() && row[n] > 0.0) {
+    i.timing.early_rows = row.dot(score);
+    i.timing.std_rows = std::sqrt(variance_along(i, row, row[n]));
+    i.by_timing = -row.head(n) / row[n];
+  }
+  for (Eigen::MatrixXd* m : {&i.normal, &i.windows, &i.quantiser}) *m = m->topLeftCorner(n, n).eval();
+}
+
 }  // namespace
+
+double variance_along(const Information& i, const Eigen::VectorXd& row, double diagonal) {
+  const double count = std::max(2, i.window_count);
+  return std::max({i.variance * i.inflation * diagonal, count / (count - 1.0) * row.dot(i.windows * row),
+                   row.dot(i.quantiser * row)});
+}
 
 Correlation correlation_at(const FitProblem& problem, const FitPoint& at, double observer_hz) {
   const Cost cost(problem, at, observer_hz);
   const Cost::Vector x = cost.pack(at);
-  std::vector<Eigen::VectorXd> residuals;
+  std::vector<Part> parts(cost.recordings());
   double simulations = 0.0;
   for (std::size_t r = 0; r < cost.recordings(); ++r) {
-    residuals.emplace_back(cost.samples(r));
-    const Evaluation done = cost.evaluate(r, x, residuals.back().data(), nullptr);
+    parts[r].residuals.resize(cost.samples(r));
+    const Evaluation done = cost.evaluate(r, x, parts[r].residuals.data(), nullptr);
     simulations += done.simulations;
     if (!done.valid) return {kNaN, 0.0, simulations};
   }
-  Correlation correlation = correlation_of(problem, residuals);
+  Correlation correlation = correlation_of(problem, parts);
   correlation.simulations = simulations;
   return correlation;
 }
@@ -165,34 +270,15 @@ Correlation correlation_at(const FitProblem& problem, const FitPoint& at, double
 Information information_at(const FitProblem& problem, const FitPoint& at, double observer_hz) {
   const Cost cost(problem, at, observer_hz);
   const Cost::Vector x = cost.pack(at);
-  const Eigen::Index used = cost.size();
   Information information;
-  std::vector<Part> parts;
-  double samples = 0.0, squares = 0.0, quantised = 0.0;
-  for (std::size_t r = 0; r < cost.recordings(); ++r) {
-    parts.push_back(part_of(cost, r));
-    const Evaluation done = cost.evaluate(r, x, parts[r].residuals.data(), parts[r].jacobian.data());
-    information.simulations += done.simulations;
-    if (!done.valid) return information;
-    const double size = static_cast<double>(parts[r].residuals.size());
-    samples += size;
-    squares += parts[r].residuals.squaredNorm();
-    quantised += size * std::pow(problem.recordings[r].quantum / problem.floors[r], 2) / 12.0;
-  }
-  information.normal = information.windows = information.quantiser = Eigen::MatrixXd::Zero(used, used);
-  const auto length = static_cast<Eigen::Index>(std::ceil(samples / kWindows));
-  for (std::size_t r = 0; r < parts.size(); ++r) {
-    const Part& p = parts[r];
-    scatter(p.jacobian.transpose() * p.jacobian, p.columns, information.normal);
-    scatter(window_scores(p, length, information.window_count), p.columns, information.windows);
-    scatter(quantiser_scores(p, problem.recordings[r], problem.floors[r]), p.columns, information.quantiser);
-  }
-  for (Eigen::Index i = 0; i < used; ++i) information.normal(i, i) += cost.beside_curvature(i, x[i]);
-  information.variance = std::max(squares, quantised) / std::max(1.0, samples - static_cast<double>(used));
-  information.inflation = inflation_of(parts);
-  std::vector<Eigen::VectorXd> residuals;
-  for (const Part& p : parts) residuals.push_back(p.residuals);
-  information.correlation = correlation_of(problem, residuals);
+  std::vector<Part> parts = parts_at(cost, x, information.simulations);
+  if (parts.empty()) return information;
+  const Eigen::Index n = cost.size();
+  const bool timed = add_delay(problem, at, observer_hz, parts, information.simulations);
+  add_up(problem, parts, timed ? n + 1 : n, information);
+  for (Eigen::Index i = 0; i < n; ++i) information.normal(i, i) += cost.beside_curvature(i, x[i]);
+  if (timed) take_timing(score_of(cost, x, parts), information);
+  information.correlation = correlation_of(problem, parts);
   information.valid = information.normal.allFinite();
   return information;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "gapscope/reference/fit_summary.h"
 #include "reference/cost.h"
 
 namespace gapscope::internal::reference {
@@ -26,12 +27,20 @@ struct Information {
   double variance = 1.0;   ///< of a residual [floor²], never below the quantiser's
   double inflation = 1.0;  ///< samples per independent sample, from the autocorrelation
   Correlation correlation;
+  InputTiming timing;
+  Eigen::VectorXd by_timing;  ///< how the numbers follow it at the least cost [1/row]; empty: it is not known
   int window_count = 0;
   double simulations = 0.0;  ///< spent on it
 };
 
 /// By plain runs; NaN where the motion diverges.
 Correlation correlation_at(const FitProblem& problem, const FitPoint& at, double observer_hz);
+
+/// Variance of a number: the largest of that of autocorrelated residuals, that from the scatter of the
+/// windows' scores, and that of the quantiser.
+/// @param row       of the inverse of the normal matrix that belongs to it
+/// @param diagonal  its own place in it
+double variance_along(const Information& information, const Eigen::VectorXd& row, double diagonal);
 
 Information information_at(const FitProblem& problem, const FitPoint& at, double observer_hz);
 

@@ -8,6 +8,7 @@
 #include "reference/prediction.h"
 #include "reference/search.h"
 #include "reference/starts.h"
+#include "reference/words.h"
 
 namespace gapscope::internal::reference {
 
@@ -131,17 +132,20 @@ std::vector<double> ModelFit::spreads(const FitPoint& at, std::span<const Weight
   return spreads;
 }
 
-std::vector<std::pair<ParameterId, double>> ModelFit::standard_errors(const FitPoint& at) const {
+StandardErrors ModelFit::standard_errors(const FitPoint& at) const {
   const Information information = information_at(*problem_, at, observer_hz_);
   count(information.simulations);
   const Determination determined = determine(*problem_, at, information);
   const std::vector<ParameterId> ends = at_bound(at);
-  std::vector<std::pair<ParameterId, double>> errors;
+  StandardErrors errors;
   for (std::size_t i = 0; i < problem_->free_count(); ++i) {
     const ParameterId id = problem_->free_parameter(i).id;
     const bool ended = std::find(ends.begin(), ends.end(), id) != ends.end();
-    errors.emplace_back(id, ended ? kNaN : determined.std[i]);
+    errors.numbers.emplace_back(id, ended ? kNaN : determined.std[i]);
   }
+  if (information.timing.is_off()) errors.doubts.push_back(words::mistimed(information.timing));
+  if (information.correlation.excess() > kWhite)
+    errors.doubts.push_back(words::patterned(information.correlation));
   return errors;
 }
 

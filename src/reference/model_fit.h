@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gapscope/base/doubt.h"
 #include "gapscope/plant/plant_model.h"
 #include "gapscope/reference/fit.h"
 
@@ -105,6 +106,13 @@ struct ModelRun {
 /// Σ weight · parameter.
 using WeightedSum = std::vector<std::pair<ParameterId, double>>;
 
+/// What a fit knows of its free numbers.
+struct StandardErrors {
+  std::vector<std::pair<ParameterId, double>>
+      numbers;                ///< [unit of the number]; NaN: not determined, or at a bound
+  std::vector<Doubt> doubts;  ///< that what it leaves raises against all of them
+};
+
 struct FitProblem;
 
 /// A model beside recordings, to be fitted again and again by other modules: from here, with this effort. The
@@ -155,9 +163,8 @@ class ModelFit {
   /// what is not estimated counts as known. Empty where the motion diverges.
   std::vector<double> spreads(const FitPoint& at, std::span<const WeightedSum> sums) const;
 
-  /// Standard errors of the free numbers by the rule of fit(), at this observer alone; NaN where the
-  /// recordings do not determine a number, or it stands at a bound.
-  std::vector<std::pair<ParameterId, double>> standard_errors(const FitPoint& at) const;
+  /// By the rule of fit(), at this observer alone.
+  StandardErrors standard_errors(const FitPoint& at) const;
 
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "reference/excerpt.h"
 #include "reference/polish.h"
@@ -144,9 +145,11 @@ void take_rejected(const FitProblem& problem, const SearchResult& found, FitOutc
   if (o.compare_parts) compare_parts(problem, outcome);
 }
 
-void warn_of_pattern(const Correlation& correlation, FitOutcome& outcome) {
-  if (correlation.excess() <= kWhite) return;
-  outcome.warnings.push_back(words::not_random(correlation.lag1, correlation.quantiser));
+void warn_of_pattern(FitOutcome& outcome) {
+  const auto& [correlation, timing] = std::tie(outcome.information.correlation, outcome.information.timing);
+  if (correlation.excess() > kWhite)
+    outcome.warnings.push_back(words::not_random(correlation.lag1, correlation.quantiser));
+  if (timing.is_off()) outcome.warnings.push_back(words::input_timing(timing));
 }
 
 }  // namespace
@@ -174,7 +177,7 @@ FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
   if (polished.best.usable() && std::sqrt(polished.best.mean_square_with_priors) <= o.rejected_ratio) {
     take(problem, polished.best, 0.0, outcome);
     spread_over_minima(problem, polished.others, outcome);
-    warn_of_pattern(outcome.information.correlation, outcome);
+    warn_of_pattern(outcome);
     return outcome;
   }
   outcome.warnings.push_back(words::free_run_departs(kSlowObserver * o.observer_hz));

@@ -178,12 +178,18 @@ std::optional<Remark> patterned(const FitOutcome& o, const FitSummary&) {
   return words::residual_patterned();
 }
 
+std::optional<Remark> mistimed(const FitOutcome& o, const FitSummary&) {
+  if (!o.information.timing.is_off()) return {};
+  return words::input_mistimed(o.information.timing);
+}
+
 constexpr std::pair<FitTrust, Judge> kJudges[] = {
     {FitTrust::kRejected, unexplained},   {FitTrust::kRejected, other_gap},
     {FitTrust::kRejected, no_gap_needed}, {FitTrust::kRejected, little_of_a_gap},
     {FitTrust::kRejected, odd_coupling},  {FitTrust::kLimited, unfinished},
-    {FitTrust::kLimited, gap_open},       {FitTrust::kLimited, above_floor},
-    {FitTrust::kLimited, moving},         {FitTrust::kLimited, patterned}};
+    {FitTrust::kLimited, gap_open},       {FitTrust::kLimited, mistimed},
+    {FitTrust::kLimited, above_floor},    {FitTrust::kLimited, moving},
+    {FitTrust::kLimited, patterned}};
 
 /// A model that is usable is not one that does not explain its recordings, however far the encoder's floor.
 /// Of one that is rejected the warning tells the error that the reason tells.

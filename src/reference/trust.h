@@ -26,9 +26,10 @@ double unexplained_share(const FitSummary& fit);
 /// Fills trust, why and the facts, once everything else in the summary is there. The first reason counts:
 ///   rejected  the fit failed; it leaves kUnexplained of what the torque does to the motion; the recordings
 ///             are explained as well without the gap; another gap on another part of them
-///   limited   iterations ran out; a gap at its bound or not determined; values that move by more than their
-///             intervals between parts or gains; a free run above the encoder's floor, or within it and not
-///             random
+///   limited   iterations ran out; a gap at its bound or not determined; an input that acts elsewhere than at
+///   its
+///             row; a free run above the encoder's floor, or within it and not random; values that move by
+///             more than their intervals between parts or gains
 ///   good      the rest
 void judge_trust(const FitProblem& problem, const FitOutcome& outcome, const TrustFacts& facts,
                  FitSummary& summary);

@@ -1,5 +1,7 @@
 #include "reference/words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -97,6 +99,10 @@ Remark not_random(double lag1, double quantiser) {
           "quantiser explains {:.2f}): something small is missing or another minimum is better, and the "
           "intervals assume neither.",
           {lag1, quantiser}};
+}
+Remark input_timing(const InputTiming& timing) {
+  const Doubt doubt = mistimed(timing);
+  return {"input_timing", "{}: {}; the intervals hold what that may move.", {doubt.found, doubt.advice}};
 }
 Remark worse_than_still(double ratio) {
   return {"worse_than_still",
@@ -208,6 +214,30 @@ Remark above_floor(double fit_percent, double floors, double unexplained_percent
 Remark residual_patterned() {
   return {"residual_patterned",
           "The residual is within the encoder's size but not random: something small is missing."};
+}
+
+Remark input_mistimed(const InputTiming& timing) {
+  const Doubt doubt = mistimed(timing);
+  return {"input_mistimed", "Within its error, but {}: {}.", {doubt.found, doubt.advice}};
+}
+
+Doubt mistimed(const InputTiming& timing) {
+  const bool early = timing.early_rows > 0.0;
+  return {
+      "input_timing",
+      fmt::format("the motion answers to the input {:.2g} ± {:.1g} rows {} its row",
+                  std::abs(timing.early_rows), timing.std_rows, early ? "before" : "after"),
+      early ? "u changes between the rows, or its rows stand too late: record at the rate of the drive's loop"
+            : "the drive acts later than its log says, or u's rows stand too early: record u and x1 of the "
+              "same "
+              "instant"};
+}
+Doubt patterned(const Correlation& correlation) {
+  return {"not_random",
+          fmt::format("what the fitted model leaves is as small as the encoder's step but not random: lag-1 "
+                      "autocorrelation {:.2f}, of which the counts explain {:.2f}",
+                      correlation.lag1, correlation.quantiser),
+          "something small is missing, or u and x1 are not of the rows that they stand in"};
 }
 
 Remark another_gap(double from, double to) {

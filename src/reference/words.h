@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/doubt.h"
 #include "gapscope/base/remark.h"
+#include "reference/information.h"
 
 /// Everything that the fit says, in one place. Values and units as the parameters have them.
 namespace gapscope::internal::reference::words {
@@ -18,6 +20,7 @@ Remark not_explained(double floors, double observer_hz);
 Remark leaves_some(double unexplained_percent, double observer_hz);
 Remark free_run_departs(double observer_hz);
 Remark not_random(double lag1, double quantiser);
+Remark input_timing(const InputTiming& timing);
 Remark worse_than_still(double ratio);
 
 // Where it began.
@@ -51,6 +54,11 @@ Remark gap_not_determined();
 Remark parts_disagree();
 Remark above_floor(double fit_percent, double floors, double unexplained_percent);
 Remark residual_patterned();
+Remark input_mistimed(const InputTiming& timing);
+
+// What speaks against any number that is fitted.
+Doubt mistimed(const InputTiming& timing);
+Doubt patterned(const Correlation& correlation);
 
 // What differs from part to part.
 struct ValueShift {

@@ -71,6 +71,22 @@ struct ResidualTest {
   double worst_lag = kNaN;  ///< where that is [s]
 };
 
+/// How much earlier than its own row the input acts, as the recordings have it. Where the input is held from
+/// its row to the next, as a model takes it, that is zero. Of every second row of a drive whose loop is
+/// faster than its log, half of the changes come half a row early, a quarter in the mean; of a line from row
+/// to row, half a row.
+struct InputTiming {
+  double early_rows = kNaN;  ///< NaN: a controller makes the input, or the motion does not tell
+  double std_rows = kNaN;    ///< its standard error
+
+  /// Off by more than chance, two and a half standard errors, and by a tenth of a row: the rows are not what
+  /// the model takes them for.
+  bool is_off() const;
+  /// Root mean square of what the recordings leave open of it, knowing that u belongs to its row: within a
+  /// row a spread of a quarter [rows]; 0 where nothing is known of it.
+  double open_rows() const;
+};
+
 /// What the model-based reference says. A default-built one says that it was not run.
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
@@ -88,6 +104,7 @@ struct FitSummary {
   int starts = 0;                   ///< starting points tried
   int simulations = 0;  ///< plain simulations spent, one with Jets or effects counted as its measured cost
   double lag1_autocorrelation = kNaN;       ///< of the residual [-]
+  InputTiming input_timing;                 ///< by one more number of the fit
   ResidualTest whiteness;                   ///< of the residual with itself
   ResidualTest input_correlation;           ///< of the residual with the input
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
