@@ -111,16 +111,19 @@ std::optional<Answer> answer_of_diagnosis(const Diagnosis& d, Coordinates coordi
   if (!internal::diagnosis::left_open(a).empty()) a.trust = AnswerTrust::kLimited;
   a.sentence = fmt::format("{}{} by the model that the diagnosis has fitted.",
                            internal::diagnosis::the_gap_is(), told_with(gap.value, gap.ci95, coordinates));
+  put_in_doubt(a, d.doubts);
   return a;
 }
 
-void doubt_unit(Answer& a, const std::string& why, const std::string& remedy) {
+void put_in_doubt(Answer& a, const std::vector<Doubt>& doubts) {
+  if (doubts.empty()) return;
+  const Doubt& first = doubts.front();
   if (a.trust != AnswerTrust::kNone) {
     if (a.sentence.ends_with(".")) a.sentence.pop_back();
-    a.sentence += ", if x1 has the unit that was declared (" + why + ")";
+    a.sentence += ", if the recording is what it is taken for (" + first.found + ").";
   }
   if (a.trust == AnswerTrust::kGood) a.trust = AnswerTrust::kLimited;
-  a.next.insert(a.next.begin(), "See that the unit of x1 is right: " + remedy + ".");
+  a.next.insert(a.next.begin(), "See to the recording first: " + first.advice + ".");
   a.next.resize(std::min<std::size_t>(a.next.size(), 3));
 }
 

@@ -124,6 +124,14 @@ void append_windows(const std::vector<double>& errors, std::size_t from, std::si
   }
 }
 
+/// How far a free mass runs astray in `length` seconds, rms, that an observer with both poles at λ = 2π hz
+/// has let go, in deviations of the encoder's white noise: √(λ dt (5/4 + λ T/2 + (λ T)²/12)), by the steady
+/// covariance of its state.
+double observer_noise(double hz, double dt, double length) {
+  const double rate = 2.0 * kPi * hz, way = rate * length;
+  return std::sqrt(rate * dt * (1.25 + 0.5 * way + way * way / 12.0));
+}
+
 /// The first restart is left to the observer, which does not know the load's place yet.
 std::size_t first_window(const HeldOut& held_out, std::size_t r) {
   const std::size_t restart = held_out.restart(r);
@@ -155,9 +163,14 @@ double HeldOut::innovation_floor(std::size_t r) const {
   return std::max(std::hypot(floors[r], open), innovation_repeats);
 }
 
+double HeldOut::free_encoder_floor(std::size_t r) const {
+  const double length = traces[r].dt * static_cast<double>(restart(r));
+  return floors[r] * std::hypot(1.0, observer_noise(kMeasure.slow_hz, traces[r].dt, length));
+}
+
 double HeldOut::free_floor(std::size_t r) const {
   const double open = free_open.empty() ? 0.0 : free_open[r];
-  return std::max(std::hypot(floors[r], open), free_repeats);
+  return std::max(std::hypot(free_encoder_floor(r), open), free_repeats);
 }
 
 std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace> recordings,

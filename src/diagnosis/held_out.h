@@ -25,6 +25,8 @@ struct HeldOut {
   /// Samples from one restart to the next, a number that 2 divides; counted in (mean) steps.
   std::size_t restart(std::size_t r) const;
   double innovation_floor(std::size_t r) const;
+  /// What the encoder alone leaves of a free run: its own error, and what of it the observer began with.
+  double free_encoder_floor(std::size_t r) const;
   double free_floor(std::size_t r) const;
 };
 

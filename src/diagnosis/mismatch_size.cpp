@@ -43,15 +43,17 @@ Interval shrink_interval(double before, double shrink) {
 }
 
 /// Of the free runs, in any recording.
-double pooled_free_floor(const HeldOut& held_out) {
+double pooled(const HeldOut& held_out, double (HeldOut::*floor)(std::size_t) const) {
   double sum = 0.0;
-  for (std::size_t r = 0; r < held_out.traces.size(); ++r) sum += std::pow(held_out.free_floor(r), 2);
+  for (std::size_t r = 0; r < held_out.traces.size(); ++r) sum += std::pow((held_out.*floor)(r), 2);
   return std::sqrt(sum / static_cast<double>(held_out.traces.size()));
 }
+double pooled_free_floor(const HeldOut& held_out) { return pooled(held_out, &HeldOut::free_floor); }
 
 /// Whether what the supply's readings leave open is more than what the encoder does.
 bool is_open_by_supply(const HeldOut& held_out) {
-  return !held_out.free_open.empty() && pooled_free_floor(held_out) > std::sqrt(2.0) * pooled_floor(held_out);
+  return !held_out.free_open.empty() &&
+         pooled_free_floor(held_out) > std::sqrt(2.0) * pooled(held_out, &HeldOut::free_encoder_floor);
 }
 
 /// What a floor was read from.

@@ -13,21 +13,23 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-using StandardErrors = std::vector<std::pair<reference::ParameterId, double>>;
-
 /// What the fit says of its numbers.
 struct FitErrors {
-  StandardErrors errors;
+  std::vector<std::pair<reference::ParameterId, double>> errors;
   std::vector<Interval> bounds;  ///< of each of them
   std::vector<reference::ParameterId> at_bound;
+  std::vector<Doubt> doubts;
 };
 
 FitErrors errors_of(const Study& study, const FittedModel& fitted) {
   const reference::ModelFit fit(study.train, fitted.model, study.options.fit, study.observer_hz);
   // A model of the torque balance brings no initial states.
-  const auto starts = settled_starts(study.train, fitted.model, study.observer_hz);
+  const auto starts = fitted.starts.size() == study.train.size()
+                          ? fitted.starts
+                          : settled_starts(study.train, fitted.model, study.observer_hz);
   const reference::FitPoint at = fit.point_of(fitted.model, starts);
-  FitErrors told{fit.standard_errors(at), {}, fit.at_bound(at)};
+  reference::StandardErrors errors = fit.standard_errors(at);
+  FitErrors told{std::move(errors.numbers), {}, fit.at_bound(at), std::move(errors.doubts)};
   for (const auto& [id, error] : told.errors) told.bounds.push_back(fit.bounds(id));
   return told;
 }
@@ -202,6 +204,8 @@ void tell_intervals(const Study& study, const FittedModel& fitted, const Referen
   for (const auto& [id, error] : fit.errors)
     if (id == reference::drive_number(place::kGap) && !std::isnan(error))
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
+  if (d.mismatch.after < kRule.floor_ratio * d.mismatch.floor) d.doubts = fit.doubts;  // else more is missing
+  for (const Doubt& doubt : d.doubts) d.warnings.push_back(fmt::format("{}: {}.", doubt.found, doubt.advice));
   if (known) d.refitted = refitted_of(study, fitted, nominal, fit);
 }
 

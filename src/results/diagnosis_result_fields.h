@@ -6,6 +6,7 @@
 
 #include "gapscope/results/diagnosis_result.h"
 #include "results/answer_fields.h"
+#include "results/doubt_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/error_budget_fields.h"
 #include "results/file_hash_fields.h"
@@ -275,6 +276,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.seldom("held_numbers", g.held);
   archive.seldom("modelled", g.modelled);
   archive("observer_hz", g.observer_hz);
+  archive.added_list("doubts", g.doubts);
   archive("warnings", g.warnings);
   archive("name", d.result.name);
   archive("version", d.result.version);

@@ -5,6 +5,7 @@
 
 #include "gapscope/results/run_result.h"
 #include "results/answer_fields.h"
+#include "results/doubt_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/file_hash_fields.h"
 #include "results/input_facts_fields.h"
@@ -180,6 +181,8 @@ void fields(Archive& archive, FitSummary& f) {
   archive("starts", f.starts);
   archive("simulations", f.simulations);
   archive("lag1_autocorrelation", f.lag1_autocorrelation);
+  archive.addition("input_early_rows", f.input_timing.early_rows);
+  archive.addition("input_early_std_rows", f.input_timing.std_rows);
   archive.single("whiteness", f.whiteness);
   archive.single("input_correlation", f.input_correlation);
   archive("start_costs", f.start_costs);
@@ -234,6 +237,7 @@ void fields(Archive& archive, Document& d) {
   archive.part("comparison", d.run.comparison);
   archive.seldom("second_encoder", d.run.second_encoder);
   archive("simulated_gap_rad", d.run.simulated_gap);
+  archive.added_list("doubts", d.run.doubts);
   archive("notes", d.run.notes);
   archive.seldom("simulated_data", d.run.simulated_data);
   archive.configuration(d.run.configuration);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/doubt.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
 
@@ -11,8 +12,8 @@ namespace gapscope::internal::run {
 /// What `gapscope check` says will spoil the answer to a purpose.
 struct Checked {
   std::vector<std::string> warnings;  ///< "log.csv: unit of x1: x1 steps by 360/262144: degrees? -> ..."
-  std::string doubt;   ///< that x1 is in the unit that was declared: "x1 steps by 360/262144: degrees?"
-  std::string remedy;  ///< of that
+  std::vector<Doubt> of_reading;      ///< that hold against a reading without a model
+  std::vector<Doubt> of_fit;          ///< … against a fitted model
 };
 
 /// Of these files as estimators and diagnosis alike read them; reversals are the detector's own concern, and

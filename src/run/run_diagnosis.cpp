@@ -24,15 +24,13 @@
 namespace gapscope {
 namespace {
 
-/// Of what is fitted and what is held out alike.
-std::vector<std::string> checked(const Configuration& c, const Progress& progress) {
-  std::vector<std::string> warnings;
-  if (!c.recording) return warnings;
+/// What is fitted and what is held out alike.
+internal::run::Checked checked(const Configuration& c, const Progress& progress) {
+  if (!c.recording) return {};
   progress("checking the recordings");
-  for (const auto* files : {&c.recording->files, &c.recording->held_out})
-    for (std::string& warning : internal::run::check_files(c, *files, Purpose::kDiagnosis).warnings)
-      warnings.push_back(std::move(warning));
-  return warnings;
+  std::vector<RecordedFile> all = c.recording->files;
+  all.insert(all.end(), c.recording->held_out.begin(), c.recording->held_out.end());
+  return internal::run::check_files(c, all, Purpose::kDiagnosis);
 }
 
 /// "a.csv", "[a.csv, b.csv]"
@@ -151,7 +149,8 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
     warnings.push_back(std::move(order));
     swapped = true;
   }
-  for (const auto& more : {recordings.held_out.warnings, checked(c, options.progress)})
+  const internal::run::Checked seen = checked(c, options.progress);
+  for (const auto& more : {recordings.held_out.warnings, seen.warnings})
     warnings.insert(warnings.end(), more.begin(), more.end());
   DiagnosisResult result{c.name, version(), resolved_yaml(c), c.coordinates,
                          diagnose_recordings(c, recordings, options)};
@@ -161,6 +160,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
   result.answer.emplace().tolerance = c.tolerance;
   Diagnosis& d = result.diagnosis;
   d.better_swapped = swapped;
+  d.doubts.insert(d.doubts.begin(), seen.of_fit.begin(), seen.of_fit.end());
   const std::vector<std::string> guesses = internal::run::guess_warnings(c);
   warnings.insert(warnings.end(), guesses.begin(), guesses.end());
   for (std::string more :

@@ -216,6 +216,13 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
     internal::run::command_anew(fitted_controller(*c.controller, *r.reference), r.recordings);
 }
 
+/// A fit to doubtful recordings is none to rely on, however well it follows them.
+void limit_by(const std::vector<Doubt>& doubts, FitSummary& fit) {
+  if (doubts.empty() || fit.trust != FitTrust::kGood) return;
+  fit.trust = FitTrust::kLimited;
+  fit.why = Remark("doubtful_recording", "The recording is doubtful: {}.", {doubts.front().found});
+}
+
 }  // namespace
 
 RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress,
@@ -249,6 +256,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   estimate(c, wanted, grids, progress, threads, out);
   if (c.encoder.sides == EncoderSides::kBoth)
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
+  if (r.reference) limit_by(checked.of_fit, *r.reference);
   note_published_bound(r);
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
@@ -263,7 +271,8 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.answer = answer_of({r.model_free ? &*r.model_free : nullptr, r.reference ? &*r.reference : nullptr,
                         r.comparison ? r.comparison->agree : std::nullopt, r.coordinates,
                         largest_travel(r.recordings)});
-  if (!checked.doubt.empty()) doubt_unit(*r.answer, checked.doubt, checked.remedy);
+  r.doubts = r.answer->from == AnswerSource::kReference ? checked.of_fit : checked.of_reading;
+  put_in_doubt(*r.answer, r.doubts);
   r.answer->tolerance = c.tolerance;
   stop_point();
   return out;

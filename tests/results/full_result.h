@@ -74,6 +74,7 @@ inline FitSummary summary(const RunResult& run) {
   f.starts = 8;
   f.simulations = 345;
   f.lag1_autocorrelation = -kThird;
+  f.input_timing = {0.25 * kThird, 0.5 * kThird};
   f.parameters.push_back({"gap", "rad", 0.02, 0.0188, 1e-5, {0.01878, 0.01882}, 0.0, 0.3, true, true, false});
   f.parameters.push_back({"a_fixed", "-", 1.2, 1.2, kNaN, {}, -kInfinity, kInfinity, false, false, false});
   f.parameters.push_back({"bound", "N m", 1.2, 0.0, 3.0, {}, kNaN, 1.0, true, false, true});
@@ -101,6 +102,7 @@ inline RunResult full_result() {
                       AnswerTrust::kLimited, "The backlash gap is \"6\" mm.",  {"one", "two"}};
   run.simulated_gap = 0.0188;
   run.notes = {"resampled to 400 Hz"};
+  run.doubts = {{"fresh_samples", "x1 is held", "record anew"}};
   return run;
 }
 

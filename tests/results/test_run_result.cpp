@@ -41,6 +41,12 @@ TEST(RunResult, ComesBackExactly) {
   EXPECT_EQ(a.configuration, b.configuration);
   EXPECT_EQ(a.coordinates, b.coordinates);
   EXPECT_EQ(a.notes, b.notes);
+  ASSERT_EQ(a.doubts.size(), b.doubts.size());
+  for (std::size_t i = 0; i < a.doubts.size(); ++i) {
+    EXPECT_EQ(a.doubts[i].code, b.doubts[i].code);
+    EXPECT_EQ(a.doubts[i].found, b.doubts[i].found);
+    EXPECT_EQ(a.doubts[i].advice, b.doubts[i].advice);
+  }
   EXPECT_SAME(simulated_gap);
   EXPECT_SAME(comparison->difference);
   EXPECT_SAME(comparison->joint_std);
@@ -176,6 +182,8 @@ TEST(RunResult, TheReferenceComesBackExactly) {
   EXPECT_EQ(a.starts, b.starts);
   EXPECT_EQ(a.simulations, b.simulations);
   EXPECT_SAME(lag1_autocorrelation);
+  EXPECT_SAME(input_timing.early_rows);
+  EXPECT_SAME(input_timing.std_rows);
   ASSERT_EQ(a.start_costs.size(), b.start_costs.size());
   for (std::size_t i = 0; i < a.start_costs.size(); ++i) EXPECT_SAME(start_costs[i]);
   EXPECT_EQ(a.warnings, b.warnings);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/base/doubt.h"
 #include "gapscope/diagnosis/card.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
@@ -50,11 +51,9 @@ struct Findings {
 /// load far lighter than the motor leaves a weaker impact, and such a reading does not know the load.
 Answer answer_of(const Findings& findings);
 
-/// A gap in the wrong unit is as wrong as the unit: its trust is limited at most, and the unit is seen to
-/// first.
-/// @param why     "x1 steps by 360/262144: degrees?"
-/// @param remedy  "declare it, recording: units: {position: deg}"
-void doubt_unit(Answer& answer, const std::string& why, const std::string& remedy);
+/// An answer that rests on doubtful recordings: its trust is limited at most, and the first doubt is seen to
+/// before anything else.
+void put_in_doubt(Answer& answer, const std::vector<Doubt>& doubts);
 
 /// The gap of the model that a diagnosis has fitted, where that follows the held-out recordings and the
 /// fitted ones determine it: good at the floor, limited up to ten of it, nothing beyond.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/base/doubt.h"
 #include "gapscope/base/fields.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/diagnosis/added_effect.h"
@@ -212,6 +213,7 @@ struct Diagnosis {
   /// Dampings and frictions of the drive that the model holds, by key: no sheet tells them well, and where
   /// one is wrong an effect takes its place
   std::vector<std::string> held;
+  std::vector<Doubt> doubts;  ///< of what was fitted and held out, and of what the fitted model leaves of it
   std::vector<std::string> warnings;
   std::vector<MismatchTrace> traces;
   ReferenceModel fitted;  ///< the model as fitted, accepted effects included

@@ -34,6 +34,7 @@ struct RunResult {
   std::optional<InputFacts> input = {};         ///< absent where nothing is known of it
   std::vector<std::string> simulated_data =
       {};                          ///< sentences on data that no drive has made; empty: none known
+  std::vector<Doubt> doubts = {};  ///< of the recordings, as check finds them, for what the answer rests on
   std::vector<std::string> notes;  ///< what was done to the data, readings of the configuration
 };
 

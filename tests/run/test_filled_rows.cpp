@@ -1,0 +1,110 @@
+// Rows that are no readings of their own, and inputs that changed between the rows: no number of them is
+// trusted well.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+
+#include "gapscope/recording/recording_file.h"
+#include "gapscope/run/run_diagnosis.h"
+#include "results/scratch_folder.h"
+#include "support/paper_model.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Progress kSilentRun = [](const std::string&) {};
+
+using Rows = Recording;
+
+/// The paper's rig, made by the plant that shares no code with the fit.
+Rows rows_of_rig() {
+  const std::string yaml =
+      "encoder: {bits: 18}\nsimulation: {plant: independent, rate: 1000, duration: 4, excitation: {sine: "
+      "{amplitude: "
+      "0.58, frequency: 1}}}\nmodel: " +
+      std::string(testing::kPaperModel);
+  Rows r = simulated_recording(parse_configuration(yaml, "rig.yaml"));
+  r.x2.clear(), r.mode.clear();
+  return r;
+}
+
+/// A recording in a folder of its own, with a configuration that finds gap, damping and mass ratio in it.
+struct Drive {
+  explicit Drive(const Rows& rows) {
+    write_csv((folder.path / "drive.csv").string(), rows);
+    std::ofstream((folder.path / "drive.yaml").string())
+        << "recording: {file: drive.csv}\nencoder: {bits: 18}\nmodel: " << testing::kPaperModel;
+  }
+  Configuration configuration() const { return load_configuration((folder.path / "drive.yaml").string()); }
+  RunResult estimate() const { return run_pipeline(configuration(), {true, true}, kSilentRun).result; }
+
+  ScratchFolder folder;
+};
+
+Rows held(Rows r, std::size_t n) {
+  for (std::size_t i = 0; i < r.size(); ++i) r.x1[i] = r.x1[i - i % n];
+  return r;
+}
+
+Rows twice(const Rows& r, bool on_lines) {
+  Rows t = r;
+  t.dt = 0.5 * r.dt, t.u.clear(), t.x1.clear();
+  for (std::size_t i = 0; i + 1 < r.size(); ++i) {
+    const double part = on_lines ? 0.5 : 0.0;
+    t.u.push_back(r.u[i]), t.u.push_back(r.u[i] + part * (r.u[i + 1] - r.u[i]));
+    t.x1.push_back(r.x1[i]), t.x1.push_back(r.x1[i] + part * (r.x1[i + 1] - r.x1[i]));
+  }
+  return t;
+}
+
+Rows every_second(const Rows& r) {
+  Rows s = r;
+  s.dt = 2.0 * r.dt, s.u.clear(), s.x1.clear();
+  for (std::size_t i = 0; i < r.size(); i += 2) s.u.push_back(r.u[i]), s.x1.push_back(r.x1[i]);
+  return s;
+}
+
+TEST(FilledRows, AreADoubtThatNoNumberOfThemIsTrustedWellWith) {
+  const Rows rig = rows_of_rig();
+  EXPECT_EQ(Drive(rig).estimate().answer->trust, AnswerTrust::kGood);
+  for (const Rows& filled : {held(rig, 2), held(rig, 4), twice(rig, false), twice(rig, true)}) {
+    const RunResult r = Drive(filled).estimate();
+    ASSERT_FALSE(r.doubts.empty());
+    EXPECT_EQ(r.doubts.front().code, "fresh_samples") << r.doubts.front().found;
+    EXPECT_NE(r.reference->trust, FitTrust::kGood) << r.reference->full_report();
+    EXPECT_NE(r.answer->trust, AnswerTrust::kGood) << r.answer->sentence;
+    EXPECT_THAT(r.answer->next.front(), HasSubstr("resample: {rate: "));
+  }
+}
+
+TEST(FilledRows, TakenAtTheRateTheyWereReadAtAreNoDoubt) {
+  const Drive drive(held(rows_of_rig(), 2));
+  Configuration c = drive.configuration();
+  c.recording->reading.resample_rate = 500.0;
+  EXPECT_TRUE(run_pipeline(c, {true, false}, kSilentRun).result.doubts.empty());
+}
+
+TEST(FilledRows, AreADoubtToADiagnosisToo) {
+  const DiagnosisOutcome held_twice = run_diagnosis(Drive(held(rows_of_rig(), 2)).configuration(), {});
+  ASSERT_FALSE(held_twice.result.diagnosis.doubts.empty());
+  EXPECT_EQ(held_twice.result.diagnosis.doubts.front().code, "fresh_samples");
+  const auto told = answer_of_diagnosis(held_twice.result.diagnosis, held_twice.result.coordinates);
+  EXPECT_TRUE(!told || told->trust != AnswerTrust::kGood);
+}
+
+TEST(InputTiming, OfEverySecondRowIsADoubtToADiagnosis) {
+  const DiagnosisOutcome out = run_diagnosis(Drive(every_second(rows_of_rig())).configuration(), {});
+  const Diagnosis& d = out.result.diagnosis;
+  const auto told = answer_of_diagnosis(d, out.result.coordinates);
+  ASSERT_TRUE(told) << d.sentence;
+  if (told->trust != AnswerTrust::kGood) return;
+  EXPECT_LE(told->ci95.low, 0.0188) << told->sentence;
+  EXPECT_GE(told->ci95.high, 0.0188) << told->sentence;
+}
+
+}  // namespace
+}  // namespace gapscope
