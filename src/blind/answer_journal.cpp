@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/move_file.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
@@ -48,7 +49,7 @@ void AnswerJournal::read(const std::string& check) {
   if (!std::filesystem::exists(there)) return;
   if (!std::filesystem::is_regular_file(there))
     throw ConfigError(path_, "is no regular file, expected the answers so far");
-  std::ifstream in(path_, std::ios::binary);
+  std::ifstream in = try_input_file(path_);
   std::string line;
   const auto require_read = [&] {
     if (!in.is_open() || in.bad()) throw MachineError(path_ + ": cannot be read");

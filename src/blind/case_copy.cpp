@@ -9,6 +9,7 @@
 
 #include "blind/sealed_files.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/results/sha256.h"
 
 namespace gapscope::blind {
@@ -17,10 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string bytes_of(const std::string& path) {
-  if (!fs::is_regular_file(path)) throw ConfigError(path, "is no regular file, expected one that was sealed");
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_input_file(path, "one that was sealed");
   std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");
+  if (in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");
   return bytes;
 }
 

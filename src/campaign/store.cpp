@@ -12,6 +12,7 @@
 #include "campaign/sqlite.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/process_lock.h"
 #include "gapscope/base/require.h"
 #include "gapscope/base/text.h"
@@ -48,7 +49,7 @@ void require_own_beside(const std::string& file) {
     const fs::file_status there = fs::symlink_status(file + end, problem);
     if (!fs::exists(there)) return true;
     if (!fs::is_regular_file(there)) return false;
-    std::ifstream in(file + end, std::ios::binary);
+    std::ifstream in = try_input_file(file + end);
     std::string head(4, '\0');
     if (!in.read(head.data(), 4)) return in.gcount() == 0;  // empty
     return std::any_of(heads.begin(), heads.end(), [&](const std::string& h) { return head == h; });

@@ -66,12 +66,7 @@ void no_such_joint(const XMLElement& top, const std::string& file, const std::st
 JointNumbers joint_numbers(const std::string& path, const std::string& joint) {
   using namespace internal::config;
   tinyxml2::XMLDocument document;
-  const tinyxml2::XMLError problem = document.LoadFile(path.c_str());
-  if (problem == tinyxml2::XML_ERROR_FILE_NOT_FOUND ||
-      problem == tinyxml2::XML_ERROR_FILE_COULD_NOT_BE_OPENED)
-    throw ConfigError(path, "cannot be opened, expected an MJCF or URDF that can be read");
-  if (problem != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr)
-    throw ConfigError(path, "cannot be read as XML, expected an MJCF or URDF");
+  if (!load_xml(path, document)) throw ConfigError(path, "cannot be read as XML, expected an MJCF or URDF");
   const tinyxml2::XMLElement& top = *document.RootElement();
   const std::string kind = top.Name();
   if (kind != "mujoco" && kind != "robot")

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
 #include <set>
+#include <string>
 #include <system_error>
 
 #include "config/mjcf.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/shown.h"
 
 namespace gapscope::internal::config {
@@ -61,8 +64,7 @@ class Includes {
       refuse(fmt::format("expected at most {} files one in the other, and {} in all", kDeepestInclude,
                          kMostIncludes));
     tinyxml2::XMLDocument part;
-    if (part.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS || part.RootElement() == nullptr)
-      refuse("which cannot be read as XML, expected an MJCF");
+    if (!load_xml(path.string(), part)) refuse("which cannot be read as XML, expected an MJCF");
     follow(*part.RootElement(), (first_.parent_path() / given).string(), depth + 1);
     put_in_place(include, *part.RootElement());
   }
@@ -80,6 +82,13 @@ class Includes {
 };
 
 }  // namespace
+
+bool load_xml(const std::string& path, tinyxml2::XMLDocument& document) {
+  std::ifstream in = open_input_file(path, "an MJCF or URDF");
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  return document.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS &&
+         document.RootElement() != nullptr;
+}
 
 void follow_includes(tinyxml2::XMLDocument& document, const std::string& path) {
   Includes(path).follow(*document.RootElement(), path, 0);

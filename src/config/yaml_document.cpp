@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 
 namespace gapscope::internal::config {
 namespace {
@@ -86,21 +87,20 @@ class DepthGuard : public YAML::EventHandler {
 std::string read_text(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code problem;
-  const fs::file_status status = fs::status(path, problem);
-  if (!fs::exists(status)) throw ConfigError(path, "there is no such file, expected a configuration in YAML");
-  if (fs::is_directory(status)) throw ConfigError(path, "is a folder, expected a configuration in YAML");
-  if (!fs::is_regular_file(status))
-    throw ConfigError(path, "is no regular file, expected a configuration in YAML");
+  const std::string expected = "a configuration in YAML";
+  if (fs::is_directory(path, problem))
+    throw ConfigError(path, "is a folder, expected a configuration in YAML");
+  require_input_file(path, expected);
   constexpr std::array<const char*, 7> kRecordings = {".csv",  ".mat",  ".npz", ".h5",
                                                       ".hdf5", ".mcap", ".db3"};
   if (std::find(kRecordings.begin(), kRecordings.end(), fs::path(path).extension()) != kRecordings.end())
     throw ConfigError(path,
                       "is a recording, expected a configuration in YAML; `gapscope init` writes one from it");
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_input_file(path, expected);
   std::string text(kLargestFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad() || (!in.eof() && in.fail()) || !in.is_open())
+  if (in.bad() || (!in.eof() && in.fail()))
     throw ConfigError(path, "cannot be read, expected a readable configuration in YAML");
   if (text.size() > kLargestFile)
     throw ConfigError(path, "is larger than 1 MiB, expected a configuration in YAML");

@@ -1,5 +1,3 @@
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "gapscope/base/errors.h"
@@ -8,14 +6,6 @@
 
 namespace gapscope::internal::recording {
 namespace {
-
-std::ifstream opened(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in && (errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == EIO))
-    throw MachineError(path + ": cannot be opened: " + std::strerror(errno));
-  if (!in) throw ConfigError(path, "cannot be opened, expected a readable file");
-  return in;
-}
 
 void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
   const double t = row.time();
@@ -31,7 +21,7 @@ void add_row(CsvRow& row, EarlierRow earlier, RecordedRows& table) {
 }  // namespace
 
 std::vector<std::string> csv_names(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_recording_file(path);
   std::vector<std::string_view> fields, most;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
@@ -45,7 +35,7 @@ std::vector<std::string> csv_names(const std::string& path) {
 }
 
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier) {
-  std::ifstream in = opened(path);
+  std::ifstream in = open_recording_file(path);
   RecordedRows table;
   table.path = path;
   CsvRow row(path, columns);

@@ -12,6 +12,7 @@
 #include "gapscope/base/statistics.h"
 #include "recording/limits.h"
 #include "recording/log_file.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
 namespace {
@@ -78,7 +79,7 @@ class JsonFile : public ArrayFile {
                         fmt::format("has {} bytes, expected at most {} of a JSON (write a CSV or .npz)", size,
                                     kLargestText));
     text_.resize(static_cast<std::size_t>(size));
-    std::ifstream file(path_, std::ios::binary);
+    std::ifstream file = open_recording_file(path_);
     file.read(text_.data(), static_cast<std::streamsize>(text_.size()));
     text_.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
   }

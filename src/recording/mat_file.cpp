@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "gapscope/base/errors.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 /// Version 5 says so in the last four bytes of its header.
 bool is_version_5(const std::string& path) {
   std::array<char, 128> header{};
-  std::ifstream(path, std::ios::binary).read(header.data(), header.size());
+  open_recording_file(path).read(header.data(), header.size());
   const std::string end(header.end() - 4, header.end());
   return end == std::string("\x00\x01IM", 4) || end == std::string("\x01\x00MI", 4);
 }

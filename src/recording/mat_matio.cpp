@@ -16,6 +16,7 @@
 #include "gapscope/base/run_apart.h"
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
 namespace {
@@ -177,7 +178,7 @@ bool is_whole_version_4(const std::string& path) {
   constexpr std::array<std::uintmax_t, 6> kSizes = {8, 4, 4, 2, 2, 1};
   constexpr std::uint32_t kLargestMopt = 4052, kMost = 1u << 30;
   const std::uintmax_t size = std::filesystem::file_size(path);
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_recording_file(path);
   std::uintmax_t place = 0;
   while (place < size) {
     std::array<std::uint32_t, 5> head{};
@@ -197,7 +198,7 @@ bool is_whole_version_4(const std::string& path) {
 bool is_version_7_3(const std::string& path) {
   constexpr std::streamoff kUserBlock = 512;
   std::array<char, 8> signature{};
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = open_recording_file(path);
   in.seekg(kUserBlock).read(signature.data(), signature.size());
   return in && std::string(signature.begin(), signature.end()) == "\x89HDF\r\n\x1a\n";
 }

@@ -12,6 +12,7 @@
 #include "gapscope/base/errors.h"
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
+#include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
 namespace {
@@ -100,7 +101,7 @@ std::vector<double> numbers_of(std::uint32_t type, std::vector<char> raw, bool f
 
 class Version5 : public MatContent {
  public:
-  explicit Version5(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
+  explicit Version5(std::string path) : path_(std::move(path)), file_(open_recording_file(path_)) {
     const Bytes size = std::filesystem::file_size(path_);
     char last[2] = {};
     file_.seekg(kHeader - 2).read(last, sizeof last);

@@ -10,6 +10,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 #include "recording/message_log.h"
+#include "recording/recorded_rows.h"
 #include "recording/unpack.h"
 
 namespace gapscope::internal::recording {
@@ -58,7 +59,7 @@ class McapLog : public MessageLog {
   explicit McapLog(std::string path) : path_(std::move(path)), size_(std::filesystem::file_size(path_)) {}
 
   void for_each(const std::function<void(const LogMessage&)>& take) override {
-    std::ifstream file(path_, std::ios::binary);
+    std::ifstream file = open_recording_file(path_);
     std::string record(kMagic.size(), '\0');
     if (!file.read(record.data(), static_cast<std::streamsize>(record.size())) || record != kMagic)
       throw ConfigError(path_, "does not begin as an MCAP, expected one (\"\\x89MCAP0\\r\\n\" at byte 0)");

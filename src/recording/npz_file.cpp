@@ -10,6 +10,7 @@
 #include "gapscope/base/shown.h"
 #include "recording/array_file.h"
 #include "recording/npy_header.h"
+#include "recording/recorded_rows.h"
 #include "recording/zip_archive.h"
 
 namespace gapscope::internal::recording {
@@ -19,7 +20,7 @@ constexpr const char* kAgain = "expected a whole .npz, as numpy.savez or savez_c
 
 class NpzFile : public ArrayFile {
  public:
-  explicit NpzFile(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
+  explicit NpzFile(std::string path) : path_(std::move(path)), file_(open_recording_file(path_)) {
     try {
       size_ = std::filesystem::file_size(path_);
       for (ZipMember& m : zip_members(file_, size_)) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/recording/axes.h"
 #include "recording/file_kind.h"
 #include "recording/limits.h"
@@ -18,6 +19,10 @@ void keep_part(std::vector<T>& values, std::size_t first, std::size_t count) {
   if (values.empty()) return;
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
   values = std::vector<T>(begin, begin + static_cast<std::ptrdiff_t>(count));
+}
+
+std::string expected_of(const std::string& path) {
+  return fmt::format("a recording as {}", kind_of(path).called);
 }
 
 }  // namespace
@@ -61,16 +66,15 @@ RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
 }
 
 void require_recording_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code problem;
-  const fs::file_status status = fs::status(path, problem);
-  const std::string expected = fmt::format("expected a recording as {}", kind_of(path).called);
-  if (!fs::exists(status)) throw ConfigError(path, "there is no such file, " + expected);
-  if (!fs::is_regular_file(status)) throw ConfigError(path, "is no regular file, " + expected);
-  const std::uintmax_t bytes = fs::file_size(path);
+  require_input_file(path, expected_of(path));
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
   if (bytes > kMostBytes)
     throw ConfigError(path, fmt::format("has {:.3g} bytes, expected at most {:.3g}",
                                         static_cast<double>(bytes), static_cast<double>(kMostBytes)));
+}
+
+std::ifstream open_recording_file(const std::string& path) {
+  return open_input_file(path, expected_of(path));
 }
 
 }  // namespace gapscope::internal::recording

@@ -54,6 +54,9 @@ RecordedRows read_arrays(ArrayFile& file, const std::string& path, const Recordi
 /// @throws ConfigError unless it is a file of a size that is read
 void require_recording_file(const std::string& path);
 
+/// @throws ConfigError, MachineError, see open_input_file()
+std::ifstream open_recording_file(const std::string& path);
+
 /// The rows of the window, kFewestSamples or more.  @throws ConfigError
 RecordedRows read_window(const std::string& path, const ReadOptions& options,
                          EarlierRow earlier = EarlierRow::kRefused);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/shown.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
@@ -205,7 +206,7 @@ void remove_left_behind(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (!is_partial(entry)) continue;
-    std::ifstream in(entry.path() / kMark);
+    std::ifstream in = try_input_file((entry.path() / kMark).string());
     const std::string mark(std::istreambuf_iterator<char>(in), {});
     if (mark == kMarkText) remove_partial(entry.path(), folder);
     if (holds_mark_alone(entry.path()) && std::string_view(kMarkText).starts_with(mark))

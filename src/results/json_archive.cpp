@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/results/sha256.h"
 #include "results/json_place.h"
@@ -76,14 +77,8 @@ std::string quoted_number(const Json::out_of_range& error) {
 }  // namespace
 
 std::string text_of_file(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code problem;
-  const fs::file_status there = fs::status(path, problem);
-  if (fs::exists(there) && !fs::is_regular_file(there))
-    throw ConfigError(path, "is no regular file, expected a stored result");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "there is no such file, expected a stored result");
-  if (fs::file_size(path) > kMostBytes)
+  std::ifstream in = open_input_file(path, "a stored result");
+  if (std::filesystem::file_size(path) > kMostBytes)
     throw ConfigError(path, "is larger than 256 MiB, expected a stored result");
   return {std::istreambuf_iterator<char>(in), {}};
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 
 namespace gapscope {
 
@@ -49,11 +50,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::string& path) {
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem))
-    throw ConfigError(path, "is no regular file, expected one that can be read");
-  std::ifstream in(path, std::ios::binary);
-  if (!in.is_open()) throw ConfigError(path, "cannot be read, expected a readable file");
+  std::ifstream in = open_input_file(path, "a file that can be read");
   Digest digest;
   std::string piece(1 << 20, '\0');
   while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/shown.h"
 
 namespace gapscope {
@@ -258,14 +259,10 @@ void write_trace(const std::string& path, const TraceSet& set) {
 std::ifstream open_table(const std::string& path, const char* what) {
   namespace fs = std::filesystem;
   std::error_code problem;
-  const fs::file_status there = fs::status(path, problem);
-  const std::string expected = std::string(", expected the ") + what + " that the stored result names";
-  if (!fs::exists(there)) throw ConfigError(path, "there is no such file" + expected);
-  if (!fs::is_regular_file(there)) throw ConfigError(path, "is no regular file" + expected);
+  const std::string expected = std::string("the ") + what + " that the stored result names";
+  std::ifstream in = open_input_file(path, expected);
   if (fs::file_size(path, problem) > kLargestTable)
-    throw ConfigError(path, "is larger than 16 GiB" + expected);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw ConfigError(path, "cannot be read" + expected);
+    throw ConfigError(path, "is larger than 16 GiB, expected " + expected);
   return in;
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "gapscope/base/input_file.h"
 #include "gapscope/run/run_pipeline.h"
 
 namespace gapscope {
@@ -13,7 +14,7 @@ namespace gapscope {
 bool is_made_by_simulate(const std::string& path) {
   constexpr std::size_t kLongest = 4096;  // of the first two lines: of another file they may be all there is
   std::string begin(kLongest, '\0');
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = try_input_file(path);
   in.read(begin.data(), kLongest);
   std::istringstream text(begin.substr(0, static_cast<std::size_t>(in.gcount())));
   std::string header, row;

@@ -160,7 +160,7 @@ TEST(JointNumbers, AreRefusedWithWhatWasExpected) {
   EXPECT_THAT(refused("<sdf/>", "knee"), HasSubstr("begins with <sdf>, expected <mujoco> or <robot>"));
   EXPECT_THAT(refused("no XML", "knee"), HasSubstr("cannot be read as XML"));
   EXPECT_THAT(refusal([] { joint_numbers("/nowhere/robot.xml", "knee"); }),
-              HasSubstr("/nowhere/robot.xml: cannot be opened"));
+              HasSubstr("/nowhere/robot.xml: there is no such file, expected an MJCF or URDF"));
   EXPECT_THAT(
       refused("<mujoco><worldbody><body><joint name=\"a\" damping=\"soft\"/></body></worldbody></mujoco>",
               "a"),
