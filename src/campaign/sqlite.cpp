@@ -9,8 +9,10 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
+#include "recording/foreign_database.h"
 
 namespace gapscope::internal::campaign {
 namespace {
@@ -63,11 +65,13 @@ Database::Database(const std::string& file, bool create) : file_(file) {
     throw std::runtime_error(file_ + ": " + what);
   }
   sqlite3_busy_timeout(handle_, kPatience);
+  recording::take_as_data(handle_);
 }
 
 Database::~Database() { sqlite3_close(handle_); }
 
 void Database::fail() const {
+  if (sqlite3_errcode(handle_) == SQLITE_INTERRUPT) stop_point();
   const std::string what = printable(sqlite3_errmsg(handle_), 200);
   if (const char* fault = fault_of_file(sqlite3_errcode(handle_)))
     throw ConfigError(file_, fmt::format("{} ({}), expected one that `campaign` wrote", fault, what));
@@ -77,6 +81,14 @@ void Database::fail() const {
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
 }
+
+void Database::require_tables_alone() {
+  if (const std::string other = recording::beside_tables(handle_); !other.empty())
+    throw ConfigError(
+        file_, fmt::format("has the {} beside its tables, expected a store that `campaign` wrote", other));
+}
+
+void Database::write_whole() { recording::write_whole(handle_); }
 
 void Database::require_sound() {
   Statement check(*this, "PRAGMA quick_check(1)");

@@ -19,7 +19,9 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
-  void require_sound();  ///< reads all of it  @throws ConfigError where it is damaged
+  void require_tables_alone();  ///< @throws ConfigError where there is a view or a trigger
+  void write_whole();           ///< what follows is no longer ended by a request to stop
+  void require_sound();         ///< reads all of it  @throws ConfigError where it is damaged
   [[noreturn]] void fail() const;
   sqlite3* handle() const { return handle_; }
   const std::string& file() const { return file_; }

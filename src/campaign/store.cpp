@@ -13,6 +13,7 @@
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/input_file.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/process_lock.h"
 #include "gapscope/base/require.h"
 #include "gapscope/base/text.h"
@@ -83,11 +84,12 @@ std::string made(const std::string& folder) {
   return folder;
 }
 
-/// "INSERT INTO runs (run, ...) VALUES (?, ...)": columns that were added later stand where they were added.
-std::string insertion(const char* table, const std::vector<std::string>& columns) {
+/// "INSERT OR REPLACE INTO timing (run, ...) VALUES (?, ...)": columns that were added later stand where they
+/// were added.
+std::string insertion(const char* into, const std::vector<std::string>& columns) {
   std::vector<std::string> names;
   for (const std::string& column : columns) names.push_back(internal::campaign::quoted_name(column));
-  return fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(names, ", "),
+  return fmt::format("{} ({}) VALUES ({})", into, fmt::join(names, ", "),
                      fmt::join(std::vector<std::string>(columns.size(), "?"), ", "));
 }
 
@@ -143,7 +145,9 @@ struct CampaignStore::Connection {
   std::unique_ptr<Statement> insert_run, insert_timing;
 
   Connection(const std::string& file, std::unique_ptr<ProcessLock> held)
-      : lock(std::move(held)), database(file, lock != nullptr) {}
+      : lock(std::move(held)), database(file, lock != nullptr) {
+    database.require_tables_alone();
+  }
 };
 
 CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& header) : header_(header) {
@@ -163,12 +167,14 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
   else
     require_same(database, header);
   internal::campaign::add_columns(database, internal::campaign::missing_columns(database));
+  database.write_whole();
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  connection_->insert_run =
-      std::make_unique<Statement>(database, insertion("runs", internal::campaign::run_columns(header)));
+  connection_->insert_run = std::make_unique<Statement>(
+      database, insertion("INSERT INTO runs", internal::campaign::run_columns(header)));
+  // Of a run whose row was lost the time may still be there.
   connection_->insert_timing = std::make_unique<Statement>(
-      database, insertion("timing", {"run", "model_free_s", "reference_s", "run_s"}));
+      database, insertion("INSERT OR REPLACE INTO timing", {"run", "model_free_s", "reference_s", "run_s"}));
 }
 
 CampaignStore::CampaignStore(const std::string& folder)
@@ -195,6 +201,7 @@ void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTi
   Statement select(connection_->database, selection(connection_->database, header_, configurations));
   ColumnReader reader{select};
   while (select.step()) {
+    stop_point();
     CampaignRow row;
     CampaignTiming timing;
     std::int64_t run = 0;

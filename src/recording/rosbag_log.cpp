@@ -6,6 +6,8 @@
 #include <map>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
+#include "recording/foreign_database.h"
 #include "recording/message_log.h"
 
 namespace gapscope::internal::recording {
@@ -14,11 +16,6 @@ namespace {
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
 using Statement = std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)>;
 
-std::string text_at(sqlite3_stmt* row, int column) {
-  const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
-  return text ? std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))) : "";
-}
-
 class RosbagLog : public MessageLog {
  public:
   explicit RosbagLog(std::string path) : path_(std::move(path)), database_(nullptr, &sqlite3_close) {
@@ -26,9 +23,7 @@ class RosbagLog : public MessageLog {
     const int status = sqlite3_open_v2(path_.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
     database_.reset(opened);
     if (status != SQLITE_OK) fail();
-    sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, 256 << 20);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    take_as_data(opened);
     Statement tables = prepared(
         "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages')");
     if (sqlite3_step(tables.get()) != SQLITE_ROW) fail();
@@ -54,6 +49,7 @@ class RosbagLog : public MessageLog {
 
  private:
   [[noreturn]] void fail() const {
+    stop_point();
     throw ConfigError(
         path_, fmt::format("cannot be read ({}), expected a whole bag of ROS 2 (sqlite3 FILE .recover)",
                            sqlite3_errmsg(database_.get())));

@@ -7,6 +7,7 @@
 #include "campaign/change_store.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/campaign/summary.h"
 #include "support/reading.h"
 
@@ -81,11 +82,49 @@ const std::vector<Damage> kDamages = {
     {"run_negative", "INSERT INTO runs (run, \"encoder.bits\") VALUES (-1, '16')", "", "holds run -1"},
     {"value_of_no_axis", "INSERT INTO runs (run, \"encoder.bits\") VALUES (0, '17')", "",
      "run 0 has the value '17' of 'encoder.bits'"},
+    {"view_for_runs",
+     "ALTER TABLE runs RENAME TO before; CREATE VIEW runs AS WITH RECURSIVE w(run) AS (SELECT 0 UNION ALL "
+     "SELECT run FROM w) SELECT * FROM w JOIN before",
+     "", "has the view 'runs' beside its tables"},
+    {"trigger", "CREATE TRIGGER e AFTER INSERT ON runs BEGIN UPDATE runs SET model_free_gap_rad = 0.5; END",
+     "", "has the trigger 'e' beside its tables"},
     {"no_timing", "DROP TABLE timing", "", "is damaged or no store (no such table: timing)"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Store, DamagedStoreTest, ::testing::ValuesIn(kDamages),
                          [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(DamagedStore, ATriggerIsRefusedBeforeARowIsAddedToo) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  { CampaignStore(small.place("store"), campaign_header(small.config, {})); }
+  testing::change_store(
+      small.place("store/results.sqlite"),
+      "CREATE TRIGGER e AFTER INSERT ON runs BEGIN UPDATE runs SET model_free_gap_rad = 0.5; END");
+  EXPECT_THAT(testing::refusal([&] { small.run("store", 1); }),
+              HasSubstr("has the trigger 'e' beside its tables"));
+}
+
+TEST(DamagedStore, ALostRunIsMadeAgainThoughItsTimeIsStillThere) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  small.run("store", 1);
+  const auto exported = [&] { return SmallCampaign::exported(CampaignStore(small.place("store"))); };
+  const auto whole = exported();
+  testing::change_store(small.place("store/results.sqlite"), "DELETE FROM runs WHERE run = 1");
+  ASSERT_NE(exported(), whole);
+  small.run("store", 1);
+  EXPECT_EQ(exported(), whole);
+}
+
+TEST(DamagedStore, ReadingItEndsWhenItIsAskedTo) {
+  const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
+  small.run("store", 1);
+  const CampaignStore store(small.place("store"));
+  int rows = 0;
+  const auto read = [&] { store.each([&](CampaignRow&, const CampaignTiming&) { ++rows, request_stop(); }); };
+  EXPECT_THROW(read(), Interrupted);
+  EXPECT_EQ(rows, 1);
+  clear_stop_request();
+}
 
 TEST(DamagedStore, NothingIsExportedOfADamagedOne) {
   const SmallCampaign small("axes: {encoder.bits: [16, 18]}\n");
