@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "gapscope/base/at_once.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/move_file.h"
 
@@ -129,12 +130,14 @@ void write_whole_file(const std::string& path, const std::function<void(std::ost
     throw ConfigError(path, "is a link to another file, expected the name of the file itself");
   if (!found) found = content_identity(path);
   const std::string aside = new_file_beside(path);
+  const Unfinished unfinished([&] { return unlink(aside.c_str()) == 0 || errno == ENOENT; });
   try {
     write_aside(aside, path, write);
   } catch (...) {
     unlink(aside.c_str());
     throw;
   }
+  const Moment moment;
   replace_file(*found, aside, path);
 }
 

@@ -2,20 +2,17 @@
 // Exit status: 0 done, 1 the work failed, 2 the input or the command line is wrong, 3 a check found what
 // spoils the estimates, 130 interrupted.
 #include <fmt/format.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/interrupts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 #include "gapscope/results/report_folder.h"
@@ -23,52 +20,7 @@
 namespace gapscope::cli {
 namespace {
 
-constexpr int kFailed = 1, kWrongInput = 2, kInterrupted = 130;
-
-constexpr char kFinishing[] =
-    "\ngapscope: ends after the present step and reports what has been found; Ctrl-C again: at once, and "
-    "nothing is kept\n";
-
-constexpr char kStopping[] = "\ngapscope: stops after the present piece of work; asked again: at once\n";
-constexpr suseconds_t kSilent = 200'000;  ///< microseconds that may pass before that is said
-
-/// Work that stops sooner has said so itself.
-extern "C" void on_still_working(int) {
-  [[maybe_unused]] const auto told = write(STDERR_FILENO, kStopping, sizeof kStopping - 1);
-}
-
-void tell_after(suseconds_t wait) {
-  const itimerval timer{{0, 0}, {0, wait}};  // 0: never
-  setitimer(ITIMER_REAL, &timer, nullptr);
-}
-
-constexpr double kOneRequest =
-    0.1;  ///< signals within it [s] are one: `timeout` tells the process and its group
-
-/// Whether this signal is what the last one was.
-bool is_told_twice() {
-  static double last = -1.0;
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  const double seconds = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  const bool twice = last >= 0.0 && seconds - last < kOneRequest;
-  last = seconds;
-  return twice;
-}
-
-/// The first Ctrl-C asks, the second one does not wait for the answer. A diagnosis is asked to come to an end
-/// before it is asked to stop.
-extern "C" void on_interrupt(int signal) {
-  if (is_told_twice()) return;
-  if (stop_requested()) _exit(kInterrupted);
-  if (signal != SIGHUP && may_finish_first()) {
-    request_finish();
-    [[maybe_unused]] const auto told = write(STDERR_FILENO, kFinishing, sizeof kFinishing - 1);
-    return;
-  }
-  request_stop();
-  tell_after(kSilent);
-}
+constexpr int kFailed = 1, kWrongInput = 2;
 
 void add_commands(CommandLine& program) {
   add_check(program);
@@ -116,7 +68,7 @@ int guarded(int argc, char** argv) {
     tell(error.what());
     return kWrongInput;
   } catch (const Interrupted&) {
-    tell_after(0);
+    interrupt_is_answered();
     tell("gapscope: interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
@@ -136,10 +88,7 @@ int guarded(int argc, char** argv) {
 }  // namespace gapscope::cli
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, gapscope::cli::on_interrupt);
-  std::signal(SIGTERM, gapscope::cli::on_interrupt);
-  if (std::signal(SIGHUP, gapscope::cli::on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-  std::signal(SIGALRM, gapscope::cli::on_still_working);
+  gapscope::cli::answer_interrupts();
   std::signal(SIGCHLD, SIG_DFL);  // who started this may not care how its processes end
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is a write that fails, and says so
   return gapscope::cli::guarded(argc, argv);

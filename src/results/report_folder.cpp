@@ -140,12 +140,19 @@ void ReportFolder::make_partial() {
   std::string name = final_ + "/" + internal::results::kPartial + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr) refuse_to_write(final_, std::strerror(errno));
   partial_ = name;
+  unfinished_ = std::make_unique<Unfinished>([partial = partial_, folder = final_, made = made_] {
+    internal::results::remove_partial(partial, folder);
+    std::for_each(made.rbegin(), made.rend(), [](const std::string& path) { rmdir(path.c_str()); });
+    return !fs::exists(partial);
+  });
   std::ofstream mark(partial_ + "/" + internal::results::kMark);
   mark << internal::results::kMarkText;
   if (!mark.flush()) refuse_to_write(final_, "no room for a file");
 }
 
 void ReportFolder::clear() noexcept {
+  const Moment moment;
+  unfinished_.reset();
   lock_.reset();
   if (!partial_.empty()) internal::results::remove_partial(partial_, final_);
   partial_.clear();
@@ -247,6 +254,7 @@ FileList ReportFolder::list_after(const std::vector<std::string>& fresh,
 }
 
 void ReportFolder::commit() {
+  const Moment moment;
   std::vector<std::string> fresh, stale;
   for (const std::string& file : internal::results::files_below(partial_))
     if (!kept_.contains(file)) fresh.push_back(file);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/at_once.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/base/process_lock.h"
 
@@ -85,6 +86,7 @@ class ReportFolder {
   std::set<std::string> kept_;     ///< files that stay as they are
   std::unique_ptr<internal::results::FileList> before_;
   std::unique_ptr<ProcessLock> lock_;
+  std::unique_ptr<Unfinished> unfinished_;
 };
 
 /// A message about a file on its way into a folder, as one about the file in that folder.
