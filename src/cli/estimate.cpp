@@ -10,6 +10,7 @@
 #include "cli/detect_stream.h"
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shell_word.h"
 #include "gapscope/base/shown.h"
@@ -36,13 +37,15 @@ void estimate(const EstimateArguments& a, const Configuration& c, const std::str
   ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
   const Progress progress = progress_on_terminal(a.quiet);
   RunOutcome outcome = make_estimate(c, wanted, progress);
+  const FinishFirst first;  // from here on a Ctrl-C takes nothing away that was estimated
+  if (outcome.stopped) request_finish();
   progress("drawing the report");
   write_estimate(report, c, a.figures, outcome);
   print_warnings(outcome.warnings);
   ToldConfiguration told = a.config.told(a.folder, axis);
   if (!c.model.given) told.to_begin = c.recording ? shell_word(c.recording->files.front().path) : "RECORDING";
   print_headline(folder, outcome.result, told);
-  if (outcome.stopped) throw ExitStatus{kInterruptedWithReport};
+  if (finish_requested() || stop_requested()) throw ExitStatus{kInterruptedWithReport};
 }
 
 std::string folder_of(const EstimateArguments& a, const Configuration& c) {

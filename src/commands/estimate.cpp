@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "gapscope/base/interrupt.h"
 #include "gapscope/report/report.h"
 #include "gapscope/results/drive_card.h"
 
@@ -38,7 +37,6 @@ void write_estimate(ReportFolder& report, const Configuration& c, const FigureFo
   outcome.result = write_run_result(report.path(), std::move(outcome.result));
   write_timing(report.path(), outcome.timing);
   write_report(report.path(), report.dropped(), figures);
-  stop_point();
   report.commit();
 }
 

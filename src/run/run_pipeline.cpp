@@ -254,6 +254,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.recordings = std::move(loaded.recordings);
   if (c.simulation && c.simulation->plant.structure.has_load) r.simulated_gap = c.simulation->plant.drive.gap;
   estimate(c, wanted, grids, progress, threads, out);
+  stop_point();  // the last one: what is left is done soon, and nothing that was estimated is thrown away
   if (c.encoder.sides == EncoderSides::kBoth)
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
   if (r.reference) limit_by(checked.of_fit, *r.reference);
@@ -274,7 +275,6 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   r.doubts = r.answer->from == AnswerSource::kReference ? checked.of_fit : checked.of_reading;
   put_in_doubt(*r.answer, r.doubts);
   r.answer->tolerance = c.tolerance;
-  stop_point();
   return out;
 }
 
