@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/study.h"
-#include "gapscope/base/interrupt.h"
+#include "gapscope/base/cut_short.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -126,9 +126,10 @@ bool seeks_gap(const ReferenceModel& sheet) {
          std::isnan(gap.value);
 }
 
-FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
-  if (finish_requested()) return fitted;
-  if (seeks_gap(study.sheet)) return searched_around_effects(study, fitted);
+namespace {
+
+/// From the values that the sheet has for what is estimated.
+FittedModel searched_from_values(const Study& study, const FittedModel& fitted) {
   const auto is_start = [](const ParameterSetting& p) { return p.estimate && !std::isnan(p.value); };
   const auto& drive = study.sheet.parameters;
   if (std::none_of(drive.begin(), drive.end(), is_start)) return fitted;  // it would set out from itself
@@ -137,6 +138,13 @@ FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
   FittedModel other =
       fit_nominal(study.train, with_drive(fitted.model, study.sheet), given_alone, study.observer_hz);
   return other.mean_cost < fitted.mean_cost ? other : fitted;
+}
+
+}  // namespace
+
+FittedModel searched_from_sheet(const Study& study, const FittedModel& fitted) {
+  const auto search = seeks_gap(study.sheet) ? searched_around_effects : searched_from_values;
+  return unless_finishing([&] { return search(study, fitted); }).value_or(fitted);
 }
 
 bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {

@@ -16,8 +16,8 @@
 #include "diagnosis/step.h"
 #include "diagnosis/supply_steps.h"
 #include "diagnosis/verdict.h"
+#include "gapscope/base/cut_short.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
@@ -127,7 +127,7 @@ Findings first_look(Study& study) {
   if (finish_requested()) return found;
   const auto catalogue = found.budget ? worth_refitting(study, *found.budget) : study.catalogue;
   found.candidates = candidates_of(study, found.before, catalogue);
-  if (std::optional<ScoredModel> better = finish_requested() ? std::nullopt : nominal_near(study, found)) {
+  if (auto better = unless_finishing([&] { return nominal_near(study, found); }).value_or(std::nullopt)) {
     found.before = std::move(*better);
     found.candidates.clear();
     if (at_floor(found.before)) return found;

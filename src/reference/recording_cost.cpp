@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
+#include "gapscope/base/cut_short.h"
 
 namespace gapscope::internal::reference {
 namespace {
@@ -87,7 +87,7 @@ Evaluation RecordingCost::evaluate(const double* q, double* residuals, double* j
 Evaluation RecordingCost::evaluate(const double* q, double* residuals,
                                    std::span<const DerivativeColumn> columns) const {
   Evaluation done;
-  if (stop_requested() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return done;
+  if (is_to_end() || problem_.stiffness(problem_.numbers(q)) > problem_.stiffest) return done;
   if (columns.empty()) {
     done = run(q, [&](std::size_t k, double r) { residuals[k] = r; });
     if (!done.valid) return done;

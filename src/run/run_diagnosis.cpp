@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "gapscope/base/cut_short.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/reach.h"
@@ -85,16 +85,20 @@ std::string other_goal(const std::vector<Rival>& rivals) {
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
   if (d.rivals.size() < 2) return;
-  if (finish_requested()) {
-    if (!d.stopped) d.warnings.push_back("stopped before the experiment was looked for that would decide.");
-    return;
-  }
   if (takes_goals(c)) {
     d.next_experiment.sentence = other_goal(d.rivals);
     return;
   }
-  d.next_experiment =
-      next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads, options.progress);
+  const auto sought = [&] {
+    return next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads,
+                           options.progress);
+  };
+  std::optional<NextExperiment> next = unless_finishing(sought);
+  if (!next) {
+    if (!d.stopped) d.warnings.push_back("stopped before the experiment was found that would decide.");
+    return;
+  }
+  d.next_experiment = *std::move(next);
   const InputFacts input = c.input_facts();
   d.next_experiment.sentence = with_input_unit(d.next_experiment.sentence, input);
   if (d.next_experiment.separates())
