@@ -9,6 +9,9 @@
 #include "config/model_reader.h"
 #include "config/parameter_setting.h"
 #include "config/schema_parts.h"
+#include "config/schema_rules.h"
+#include "config/schema_units.h"
+#include "config/units_reader.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/plant/effect.h"
 
@@ -16,19 +19,29 @@ namespace gapscope {
 namespace internal::config {
 namespace {
 
+/// One of both ways to write a period; none is one turn of what it turns with.
+Json period_rule(const EffectEntry& entry) {
+  const Json periods = having(entry.parameters[static_cast<std::size_t>(entry.period_at())].key);
+  const Json length = having(kPeriodKey);
+  if (entry.turns_with == Shaft::kNone) return {{"oneOf", {periods, length}}};
+  return none_of({{{"allOf", {periods, length}}}});
+}
+
 Json effect_schema(const EffectEntry& entry) {
   MapSchema parameters;
   for (const EffectParameterSpec& spec : entry.parameters) {
-    parameters.add(spec.key, setting_schema(possible(spec), "", false));
+    parameters.add(spec.key, setting_schema(possible(spec), ""));
     const bool period =
         entry.period_at() >= 0 && &spec == &entry.parameters[static_cast<std::size_t>(entry.period_at())];
     const auto place = static_cast<std::size_t>(&spec - entry.parameters.data());
     if (period)
-      parameters.add(kPeriodKey, setting_schema(kPossiblePeriod, "in place of periods_per_turn", false));
+      parameters.add(kPeriodKey, setting_schema(kPossiblePeriod, "in place of periods_per_turn"));
     else if (std::isnan(neutral_value(entry, place, {})))
       parameters.required.emplace_back(spec.key);
   }
-  return parameters.schema(entry.law);
+  Json effect = parameters.schema(entry.law);
+  if (entry.period_at() >= 0) add_rule(period_rule(entry), effect);
+  return effect;
 }
 
 Json effects_schema() {
@@ -47,6 +60,21 @@ Json effect_names_schema(const std::string& doc) {
   return list_schema(words_schema(names, ""), doc);
 }
 
+/// 0 is a drive without a load, and what is as good as 0 is none; what is fitted stays away from it.
+Json mass_ratio_schema() {
+  const int i = place::kMassRatio;
+  const Json nearly_none = {{"exclusiveMinimum", 0}, {"exclusiveMaximum", kSmallestRatio}};
+  Json ratio = drive_parameter_schema(possible_parameter(i), kDriveParameters[i].doc);
+  Json &fixed = ratio["anyOf"][0], &written = ratio["anyOf"][1];
+  for (Json* number : {&fixed, &written["properties"]["value"]}) (*number)["not"] = nearly_none;
+  written["properties"]["given_at"] = {{"not", Json::object()}, {"description", "of a ratio: nowhere"}};
+  const Json fitted = any_of({having("estimate", being(true)), lacking("value")});
+  const Json above = {{"prefixItems", {Json::object(), {{"exclusiveMinimum", kSmallestRatio}}}}};
+  add_rule(where(fitted, none_of({having("value", being(0))})), written);
+  add_rule(where(fitted, {{"properties", {{"bounds", above}}}}), written);
+  return ratio;
+}
+
 Json model_schema() {
   MapSchema rigid, contact, parameters, model;
   rigid.add("restitution", number_schema({0.0, 1.0, "-"}, "1: no energy is lost"));
@@ -55,7 +83,9 @@ Json model_schema() {
   contact.required = {"rigid"};
   for (int i = 0; i < kDriveParameterCount; ++i)
     parameters.add(kDriveParameters[i].key,
-                   setting_schema(possible_parameter(i), kDriveParameters[i].doc, true));
+                   i == place::kMassRatio
+                       ? mass_ratio_schema()
+                       : drive_parameter_schema(possible_parameter(i), kDriveParameters[i].doc));
   model.add("contact",
             one_of({words_schema({"compliant"}, ""), contact.schema("")}, "law of the closed contact"));
   model.add("load", words_schema({"free", "locked"}, "locked: the output does not move"));
@@ -73,16 +103,29 @@ Json files_or_file(const std::string& doc) {
             number_schema(kGainTimes, "the controller's gain in this recording, over that of controller:"));
   named.required = {"name"};
   const Json file = one_of({text_schema(""), named.schema("a recording made with another gain")}, "");
-  Json list = list_schema(file, "");
-  list["minItems"] = 1;
+  Json list = list_schema(file, "each another file");
+  list["minItems"] = 1, list["uniqueItems"] = true;
   return one_of({text_schema(""), named.schema("a recording made with another gain"), list}, doc);
+}
+
+constexpr const char* kTemperature =
+    "°[CF]|℃|℉|deg[CF]($|[^A-Za-z])|"
+    "(^|[^A-Za-z])([Tt]emps?|TEMPS?|[Tt]emperatur[a-z]*|[Cc]elsius|[Ff]ahrenheit|[Kk]elvin)($|[^a-z])";
+
+/// Turns to either side, but not none.
+Json gear_schema() {
+  MapSchema gear = fields_schema(GearRatios{});
+  for (auto& [key, ratio] : gear.properties.items())
+    ratio["not"] = {{"exclusiveMinimum", -1.0 / kLargestGear}, {"exclusiveMaximum", 1.0 / kLargestGear}};
+  return gear.schema("turns of the recorded axis per turn of the model's");
 }
 
 Json recording_schema() {
   MapSchema columns, resample, recording;
   const auto column = [&](const char* key, const char* doc) { columns.add(key, text_schema(doc)); };
   column("time", "default: t");
-  column("input", "default: u");
+  column("input", "default: u; no temperature");
+  columns.properties["input"]["not"] = {{"type", "string"}, {"pattern", kTemperature}};
   column("position", "of the motor's side; default: x1. Named alone with encoder: side: load: of the load");
   column("load_position", "default: x2, where there is one; what encoder: side: load reads");
   column("voltage", "of the supply: u is the input, a duty, times it");
@@ -93,18 +136,18 @@ Json recording_schema() {
   resample.required = {"rate"};
   recording.add("file", files_or_file("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
                                       "several are never concatenated"));
-  recording.add("held_out", files_or_file("only diagnose reads it"));
+  recording.add("held_out", files_or_file("only diagnose reads it; other files than file"));
   recording.add(
       "simulated",
       files_or_file("what a simulator of yours answers to the same input: one for each file, or for "
                     "each file and each held_out; only diagnose reads it"));
-  recording.add("columns", columns.schema("names of the columns (of another file than a CSV: its arrays)"));
-  recording.add("units",
-                fields_schema(DeclaredUnits{}).schema("a name, or the size of one recorded unit in SI"));
+  recording.add(
+      "columns",
+      columns.schema("names of the columns (of another file than a CSV: its arrays), each another one"));
+  recording.add("units", units_schema());
   recording.add("registers",
                 fields_schema(RegisterBits{}).schema("signed numbers that were read without their sign"));
-  recording.add("gear_ratio",
-                fields_schema(GearRatios{}).schema("turns of the recorded axis per turn of the model's"));
+  recording.add("gear_ratio", gear_schema());
   recording.add("window",
                 rising_pair_schema({-kInfinity, kInfinity, "s"},
                                    "part of each file that is used, of held_out and simulated as well"));
@@ -121,15 +164,22 @@ Json simulation_schema() {
   for (const ExcitationKindSpec& spec : excitation_kinds()) {
     Excitation e;
     e.kind = spec.kind;
-    excitation.add(spec.name, fields_schema(e).schema(spec.doc));
+    MapSchema fields = fields_schema(e);
+    if (spec.kind == ExcitationKind::kRecorded) fields.required = {"file"};
+    excitation.add(spec.name, fields.schema(spec.doc));
   }
-  Json one = excitation.schema("the input u(t), one of these");
+  Json one = excitation.schema(
+      "the input u(t), one of these; its frequencies are below half the rate, low <= high and "
+      "has room for the lines, dwell + 4 rise <= 1");
   one["minProperties"] = 1, one["maxProperties"] = 1;
   simulation.add("rate", number_schema({1e-3, 1e7, "Hz"}, "sampling rate"));
-  simulation.add("duration", number_schema({1e-6, 1e8, "s"}, ""));
+  simulation.add("duration", number_schema({1e-6, 1e8, "s"}, "rate x duration: 50 to 2e7 samples"));
   simulation.add("seed", described({{"type", "integer"}, {"minimum", 0}}, "the only source of randomness"));
   simulation.add("excitation", one);
-  simulation.add("initial", fields_schema(InitialState{}).schema("state at the first sample"));
+  simulation.add(
+      "initial",
+      fields_schema(InitialState{})
+          .schema("state at the first sample; with a rigid contact x1 and x2 at most half the gap apart"));
   simulation.add("noise", number_schema({0.0, 1e3, "rad"}, "rms, before quantisation"));
   simulation.add("plant",
                  words_schema({"simulator", "independent"}, "independent: code that no estimator shares"));
@@ -157,6 +207,19 @@ Json encoder_schema() {
   return one;
 }
 
+/// Cases of each kind that are 0, all of them; what is not written is not.
+Json no_implant() {
+  const ImplantConfig unless_given;
+  Json none = {{"type", "object"}, {"properties", Json::object()}, {"required", Json::array()}};
+  for (const auto& [key, cases] : {std::pair{"known", unless_given.known},
+                                   {"outside", unless_given.outside},
+                                   {"none", unless_given.none}}) {
+    none["properties"][key] = being(0);
+    if (cases > 0) none["required"].push_back(key);
+  }
+  return none;
+}
+
 Json detector_schema() {
   MapSchema knowledge, from, detector;
   knowledge.add("input_limit", number_schema({1e-12, 1e12, "unit of u"}, "the largest |u|"));
@@ -171,7 +234,14 @@ Json detector_schema() {
                words_schema({"auto", "impact", "lost_motion", "paper"},
                             "auto: the loop or the impacts, whichever reads; paper: S1 to S6 at a bound"));
   detector.add("frozen", truth_schema("learn from the first two periods only, as a stream does"));
-  return detector.schema("the model-free estimator");
+  Json schema = detector.schema("the model-free estimator");
+  const Json bound = {{"allOf", {having("bound"), none_of({having("bound", being("auto"))})}}};
+  add_rule(where(having("method", being("paper")), bound), schema);
+  add_rule(where(having("method", {{"enum", {"impact", "lost_motion"}}}), none_of({bound})), schema);
+  add_rule(where(having("frozen", being(true)),
+                 none_of({bound, having("method", {{"enum", {"lost_motion", "paper"}}})})),
+           schema);
+  return schema;
 }
 
 }  // namespace
@@ -180,7 +250,7 @@ Json detector_schema() {
 std::string configuration_schema() {
   using namespace internal::config;
   MapSchema root;
-  root.add("name", text_schema("of the report's folder; default: the name of this file"));
+  root.add("name", folder_name_schema("of the report's folder; default: the name of this file"));
   root.add("recording", recording_schema());
   root.add("simulation", simulation_schema());
   root.add("encoder", encoder_schema());
@@ -190,16 +260,23 @@ std::string configuration_schema() {
   root.add("anchor", anchor_schema());
   root.add("detector", detector_schema());
   root.add("fit", fields_schema(FitOptions{}).schema("how the reference is found"));
-  root.add("next_experiment", fields_schema(ExperimentLimits{}).schema("what the diagnosis may propose"));
+  root.add("next_experiment",
+           fields_schema(ExperimentLimits{})
+               .schema("what the diagnosis may propose; lowest_frequency < highest_frequency"));
   MapSchema diagnosis = fields_schema(DiagnosisKnowledge{}), implant = fields_schema(ImplantConfig{});
   diagnosis.add("exclude", effect_names_schema("effects that are no candidates"));
   implant.add("effects", effect_names_schema("that may be drawn; default: all"));
   root.add("diagnosis", diagnosis.schema("what the diagnosis is told beforehand"));
   root.add("tolerance", fields_schema(Tolerance{}).schema("what is good enough: the card judges it"));
-  root.add("implant", implant.schema("what gapscope blind implant puts into the recordings"));
+  implant.properties["sizes"]["minItems"] = 1;
+  implant.properties["sizes"]["items"]["exclusiveMinimum"] = 0;
+  Json implants = implant.schema("what gapscope blind implant puts into the recordings");
+  implants["not"] = no_implant();
+  root.add("implant", implants);
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
   schema["title"] = "Configuration of gapscope";
   schema.update(root.schema("YAML that run, detect, fit, diagnose, simulate and export read"));
+  add_rules_between_blocks(schema);
   schema["oneOf"] = Json::array({{{"required", {"recording"}}}, {{"required", {"simulation"}}}});
   return schema.dump(1) + "\n";
 }

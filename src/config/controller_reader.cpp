@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "config/parameter_setting.h"
+#include "config/schema_rules.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/text.h"
 
@@ -145,18 +146,28 @@ void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const Con
   out.close();
 }
 
+/// The leading number may be without a value, where it is known which one leads.
+Json number_schema_of(const LawKey& key) {
+  if (key.fixed != nullptr) return number_schema(key.range, key.doc);
+  if (!is_gain(key)) return begun_setting_schema(key.range, key.doc);
+  return one_of({setting_schema(key.range, ""), words_schema({"estimate"}, "by the fit")}, key.doc);
+}
+
 Json law_schema(const LawKeys& keys, const std::string& doc) {
   MapSchema law;
   for (const LawKey& key : keys) {
-    if (key.fixed != nullptr)
-      law.add(key.key, number_schema(key.range, key.doc));
-    else
-      law.add(
-          key.key,
-          one_of({setting_schema(key.range, "", false), words_schema({"estimate"}, "by the fit")}, key.doc));
+    law.add(key.key, number_schema_of(key));
     if (is_gain(key)) law.required.emplace_back(key.key);
   }
   return law.schema(doc);
+}
+
+/// Of the law of the position in a cascade.
+Json inner_law() {
+  const LawKey& gain = kPositionOfCascade.front();
+  Json law = {{"propertyNames", {{"enum", names_of(kPositionOfCascade)}}}};
+  law["properties"] = {{gain.key, begun_setting_schema(gain.range, "")}};
+  return {{"properties", {{"position", law}}}};
 }
 
 /// A gain of its own has a recording only under a controller.
@@ -234,7 +245,18 @@ Json controller_schema() {
       "of the drive's firmware: makes the input of recording: columns: target, or of the excitation "
       "[rad] of a simulation");
   schema["minProperties"] = 1;
+  add_rule(where(having("velocity"), inner_law()), schema);
   return schema;
+}
+
+Json sought_by_fit() {
+  const Json sought = any_of({being("estimate"), having("estimate", being(true))});
+  std::vector<Json> numbers;
+  for (const auto& [law, keys] :
+       {std::pair{"controller.position.", kPositionAlone}, {"controller.velocity.", kVelocity}})
+    for (const LawKey& key : keys)
+      if (key.fixed == nullptr) numbers.push_back(having(std::string(law) + key.key, sought));
+  return any_of(numbers);
 }
 
 }  // namespace gapscope::internal::config

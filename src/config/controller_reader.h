@@ -22,4 +22,7 @@ void write_controller(YamlWriter& out, const ControllerModel& model, const std::
 
 Json controller_schema();
 
+/// What has a number of the controller that the fit looks for.
+Json sought_by_fit();
+
 }  // namespace gapscope::internal::config

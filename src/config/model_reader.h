@@ -37,6 +37,9 @@ Range possible_parameter(int index);
 /// What a parameter of an effect can be at all.
 Range possible(const EffectParameterSpec& spec);
 
+/// Of the inertias, load over motor [-]: 0 is another structure.
+inline constexpr double kSmallestRatio = 1e-3;
+
 /// A period as a length, in place of a number of periods per turn.
 inline constexpr const char* kPeriodKey = "period_rad";
 inline constexpr Range kPossiblePeriod = {1e-15, 1e15, "rad"};

@@ -8,12 +8,6 @@
 #include "gapscope/base/require.h"
 
 namespace gapscope {
-namespace {
-
-constexpr double kSmallestRatio = 1e-3;  ///< of the inertias, load over motor [-]: 0 is another structure
-
-}  // namespace
-
 namespace internal::config {
 namespace {
 

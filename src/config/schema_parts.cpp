@@ -22,7 +22,7 @@ struct TypeOfField {
   }
   Json operator()(const double*) const { return in_range({{"type", "number"}}, spec.low, spec.high); }
   Json operator()(const std::optional<double>*) const { return (*this)(static_cast<const double*>(nullptr)); }
-  Json operator()(const std::string*) const { return {{"type", {"string", "number"}}}; }
+  Json operator()(const std::string*) const { return text_schema(""); }
   Json operator()(const std::vector<double>*) const {
     return {{"type", "array"}, {"items", (*this)(static_cast<const double*>(nullptr))}};
   }
@@ -40,9 +40,22 @@ Json number_schema(const Range& range, const std::string& doc) {
   return described(in_range({{"type", "number"}}, range.low, range.high), doc, range.unit);
 }
 
-/// A text that looks like a number is one for YAML.
+Json above_zero_schema(const std::string& unit, const std::string& doc) {
+  return described({{"type", "number"}, {"exclusiveMinimum", 0}}, doc, unit);
+}
+
+/// A text that looks like a number or a truth value is one for YAML.
 Json text_schema(const std::string& doc) {
-  return described({{"type", {"string", "number"}}, {"minLength", 1}}, doc);
+  Json text = {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
+  text["pattern"] = "^[^\\u0000-\\u0008\\u000b\\u000c\\u000e-\\u001f\\u007f]+$";
+  return described(text, doc);
+}
+
+Json folder_name_schema(const std::string& doc) {
+  Json name = text_schema(doc);
+  name["pattern"] = "^[A-Za-z0-9_][A-Za-z0-9_.-]{0,99}$";
+  name["minimum"] = 0;  // its sign cannot begin a name
+  return name;
 }
 
 Json truth_schema(const std::string& doc) { return described({{"type", "boolean"}}, doc); }
@@ -58,7 +71,7 @@ Json list_schema(const Json& item, const std::string& doc) {
 Json rising_pair_schema(const Range& range, const std::string& doc) {
   Json pair = list_schema(in_range({{"type", "number"}}, range.low, range.high), "");
   pair["minItems"] = 2, pair["maxItems"] = 2;
-  return described(pair, doc, range.unit);
+  return described(pair, doc + "; [low, high] with low < high", range.unit);
 }
 
 Json one_of(std::vector<Json> schemas, const std::string& doc) {

@@ -16,11 +16,14 @@ using Json = nlohmann::ordered_json;
 Json described(Json schema, const std::string& doc, const std::string& unit = "");
 
 Json number_schema(const Range& range, const std::string& doc);
+Json above_zero_schema(const std::string& unit, const std::string& doc);
 Json text_schema(const std::string& doc);
+Json folder_name_schema(const std::string& doc);  ///< what is_plain_name() takes
 Json truth_schema(const std::string& doc);
 Json words_schema(const std::vector<std::string>& words, const std::string& doc);
 Json list_schema(const Json& item, const std::string& doc);
-Json rising_pair_schema(const Range& range, const std::string& doc);  ///< [low, high]
+Json rising_pair_schema(const Range& range,
+                        const std::string& doc);  ///< [low, high], which a schema cannot compare
 Json one_of(std::vector<Json> schemas, const std::string& doc);
 
 /// A map with these keys and no others.

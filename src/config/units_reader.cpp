@@ -11,7 +11,6 @@
 namespace gapscope {
 namespace {
 
-constexpr double kLargestGear = 1e6;
 constexpr const char* kCounts = "counts";
 constexpr int kMostRegisterBits = 52;  // whole numbers that a double tells apart
 
@@ -32,6 +31,7 @@ void RegisterBits::fields(FieldVisitor& v) {
 }
 
 void GearRatios::fields(FieldVisitor& v) {
+  using internal::config::kLargestGear;
   v.field({"position", "", "turns of the encoder per turn of the axis of x1", -kLargestGear, kLargestGear},
           position);
   v.field(

@@ -6,6 +6,9 @@
 
 namespace gapscope::internal::config {
 
+/// Turns of a shaft for one of another, at most; as many the other way round.
+inline constexpr double kLargestGear = 1e6;
+
 /// `units` and `gear_ratio` of a recording, and the scales that follow.
 void read_units(const Section& section, const EncoderConfig& encoder, Coordinates coordinates,
                 RecordingConfig& recording);

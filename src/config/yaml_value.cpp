@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -22,6 +23,17 @@ std::optional<T> parsed(std::string_view text) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// A whole number, also where it is written as 16.0 or 1e3.
+template <class Integer>
+std::optional<Integer> parsed_whole(std::string_view text) {
+  constexpr double kTold = 9e18;  // within 64 bits, with and without a sign
+  if (const auto value = parsed<Integer>(text)) return value;
+  const auto value = parsed<double>(text);
+  const bool fits = value && std::abs(*value) <= kTold && *value == std::floor(*value) &&
+                    (*value >= 0.0 || std::is_signed_v<Integer>);
+  return fits ? std::optional(static_cast<Integer>(*value)) : std::nullopt;
 }
 
 std::string with_unit(const std::string& text, const char* unit) {
@@ -84,22 +96,23 @@ double Value::number(const Range& range) const {
 
 std::int64_t Value::integer(std::int64_t low, std::int64_t high) const {
   const std::string expected = fmt::format("a whole number from {} to {}", low, high);
-  const auto value = parsed<std::int64_t>(plain(expected));
+  const auto value = parsed_whole<std::int64_t>(plain(expected));
   if (!value || *value < low || *value > high) fail_expecting(expected);
   return *value;
 }
 
 std::uint64_t Value::natural(std::uint64_t high) const {
   const std::string expected = fmt::format("a whole number from 0 to {}", high);
-  const auto value = parsed<std::uint64_t>(plain(expected));
+  const auto value = parsed_whole<std::uint64_t>(plain(expected));
   if (!value || *value > high) fail_expecting(expected);
   return *value;
 }
 
 bool Value::truth() const {
   const std::string& word = plain("true or false");
-  if (word != "true" && word != "false") fail_expecting("true or false");
-  return word == "true";
+  const bool is_true = word == "true" || word == "True" || word == "TRUE";
+  if (!is_true && word != "false" && word != "False" && word != "FALSE") fail_expecting("true or false");
+  return is_true;
 }
 
 std::string Value::text() const {

@@ -1,5 +1,3 @@
-#include "gapscope/recording/units.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 #include <vector>
+
+#include "gapscope/recording/unit_names.h"
 
 namespace gapscope {
 namespace {
@@ -100,6 +100,12 @@ std::string si_unit(Quantity quantity, std::string_view written) {
   for (const char* unit : {"N m", "N", "A", "V", "rad", "m", "s"})
     if (declared.ends_with(unit) && unit_scale(quantity, unit)) return unit;
   return "";
+}
+
+std::vector<std::string> unit_names(Quantity quantity) {
+  std::vector<std::string> names;
+  for (const Unit& unit : units(quantity)) names.emplace_back(unit.name);
+  return names;
 }
 
 std::string known_units(Quantity quantity) {
