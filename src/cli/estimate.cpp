@@ -153,8 +153,8 @@ void add_run(CommandLine& app) {
       "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n"
       "What `gapscope check` says will spoil the estimates is a warning; where it doubts the unit of x1 no\n"
       "trust is good.\n"
-      "Ctrl-C while the model is still fitted keeps the reading without a model (exit status 130); a second "
-      "one keeps nothing.\n\n"
+      "Ctrl-C while the model is still fitted keeps the reading without a model, and while the report is\n"
+      "drawn all of it (exit status 130); a second one ends at once and keeps nothing.\n\n"
       "Example: gapscope run configs/02_experiment.yaml -o reports/experiment",
       {true, true, true});
 }
