@@ -135,5 +135,33 @@ TEST(StoppedDiagnosis, BeginsNoSearchForTheGap) {
   EXPECT_EQ(searches, 1);
 }
 
+/// What is under way, too.
+TEST(StoppedDiagnosis, CutsShortASearchForTheGap) {
+  using namespace internal::diagnosis;
+  const blind::BlindPair pair = blind::blind_pair("geared", "motor_coulomb_friction", 0.7, 500002);
+  const MotorTrace train[] = {pair.train.motor_trace()}, held_out[] = {pair.held_out.motor_trace()};
+  bool is_asked = false;
+  DiagnosisOptions options;
+  options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
+  options.progress = [&](const std::string& what) {
+    if (is_asked && what.starts_with("looking for the gap anew")) request_finish();
+  };
+  ReferenceModel sheet = pair.sheet;
+  sheet.parameters[place::kGap] = ParameterSetting::sought(kNaN);
+  const Study study = make_study(train, held_out, sheet, options);
+  const FittedModel nominal = fit_nominal(train, pair.sheet, options.fit, study.observer_hz);
+  const auto work_of_search = [&] {
+    const std::int64_t before = *options.fit.work;
+    searched_from_sheet(study, nominal);
+    return *options.fit.work - before;
+  };
+  const std::int64_t whole = work_of_search();
+  const FinishFirst first;
+  is_asked = true;
+  EXPECT_LT(2 * work_of_search(), whole);
+  EXPECT_TRUE(finish_requested()) << "while it was under way";
+  EXPECT_NO_THROW(stop_point());
+}
+
 }  // namespace
 }  // namespace gapscope
