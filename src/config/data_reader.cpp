@@ -36,7 +36,25 @@ ReadOptions RecordingConfig::reading_of(const RecordedFile& file, UnevenRows une
   return options;
 }
 
+namespace {
+
+/// Wherever a relative one begins.
+std::string whole_path(const RecordedFile& file) {
+  return std::filesystem::absolute(file.path).lexically_normal().string();
+}
+
+}  // namespace
+
 std::string RecordingConfig::simulated_problem() const {
+  std::set<std::string> taken;
+  for (const auto* recorded : {&files, &held_out})
+    for (const RecordedFile& file : *recorded) taken.insert(whole_path(file));
+  for (const RecordedFile& file : simulated)
+    if (!taken.insert(whole_path(file)).second)
+      return fmt::format(
+          "names {}, which is named already, expected a file of its own with what the "
+          "simulator answers to each recording",
+          file.given);
   if (simulated.empty() || simulated.size() == files.size() ||
       (!held_out.empty() && simulated.size() == files.size() + held_out.size()))
     return "";
@@ -72,13 +90,17 @@ RecordedFile read_file(const Value& item, const std::string& folder) {
   return file;
 }
 
+std::vector<Value> items_of(const Value& value) {
+  std::vector<Value> items = value.is_list() ? value.items() : std::vector<Value>{value};
+  if (items.empty()) value.fail("is an empty list, expected a file or a list of files");
+  return items;
+}
+
 std::vector<RecordedFile> read_files(const Value& value, const std::string& folder,
                                      std::set<std::string>& seen) {
-  const std::vector<Value> items = value.is_list() ? value.items() : std::vector<Value>{value};
-  if (items.empty()) value.fail("is an empty list, expected a file or a list of files");
   const std::set<std::string> before = seen;
   std::vector<RecordedFile> files;
-  for (const Value& item : items) {
+  for (const Value& item : items_of(value)) {
     files.push_back(read_file(item, folder));
     const RecordedFile& file = files.back();
     if (before.contains(file.path))
@@ -166,7 +188,7 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
     recording.held_out = read_files(*held_out, folder, seen);
   recording.reading.encoder = encoder.side();
   if (const auto simulated = section.find("simulated")) {
-    recording.simulated = read_files(*simulated, folder, seen);
+    for (const Value& item : items_of(*simulated)) recording.simulated.push_back(read_file(item, folder));
     if (const std::string problem = recording.simulated_problem(); !problem.empty()) simulated->fail(problem);
   }
   if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);

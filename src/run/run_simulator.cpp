@@ -78,6 +78,15 @@ void require_same_unit(const Recording& simulated, const Recording& drive) {
                       slip.times, drive.file, slip.looks_like));
 }
 
+/// A copy of the recording under another name would differ from the drive in nothing.  @throws ConfigError
+void require_own_motion(const Recording& simulated, const Recording& drive) {
+  if (simulated.position() == drive.position())
+    throw ConfigError(simulated.file,
+                      fmt::format("has the position of {} to the last digit in all {} rows: that is the "
+                                  "recording, expected what the simulator answers to its input",
+                                  drive.file, drive.position().size()));
+}
+
 void require_there(const Configuration& c, const RecordedFile& file) {
   if (std::error_code unreachable; std::filesystem::exists(file.path, unreachable)) return;
   const std::string what = fmt::format(
@@ -90,6 +99,7 @@ Recording read_answer(const Configuration& c, const RecordedFile& file, const Re
                       SimulatedRecordings& all) {
   require_there(c, file);
   Recording r = read_simulated(file.path, c.recording->reading_of(file, UnevenRows::kStamped).columns, drive);
+  require_own_motion(r, drive);
   require_same_unit(r, drive);
   note_start(r, drive, c.coordinates, all.warnings);
   read_by_encoder(r, drive.quantum);

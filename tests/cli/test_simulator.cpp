@@ -134,6 +134,7 @@ TEST(SimulatorBeside, IsRefusedByFileLineAndExpectation) {
   place.file("late.csv", table("0.013,0.2,0.0001"));
   place.file("other.csv", table("0.01,0.25,0.0001"));
   place.file("broken.csv", table("0.01,0.2,fast"));
+  place.file("copy.csv", table());
   place.file("named.yaml", "name: d\nrecording:\n  file: drive.csv\n  simulated: gone.csv\n" + model);
   for (const auto& [arguments, found, expected] :
        {std::tuple("drive.yaml --simulated late.csv", "late.csv:3: there is no row at 0.01 s",
@@ -145,6 +146,12 @@ TEST(SimulatorBeside, IsRefusedByFileLineAndExpectation) {
         std::tuple("drive.yaml --simulated gone.csv", "--simulated: there is no simulated recording gone.csv",
                    "expected a file"),
         std::tuple("named.yaml", "named.yaml:4: there is no simulated recording gone.csv", "expected a file"),
+        std::tuple("drive.yaml --simulated ./drive.csv",
+                   "--simulated names ./drive.csv, which is named already",
+                   "expected a file of its own with what the simulator answers"),
+        std::tuple("drive.yaml --simulated copy.csv",
+                   "copy.csv: has the position of drive.csv to the last digit in all 100 rows",
+                   "expected what the simulator answers to its input"),
         std::tuple("drive.yaml --simulated late.csv --simulated other.csv", "--simulated names 2 files",
                    "expected one for each of recording: file (1)")}) {
     const auto refused = place.run(std::string("diagnose ") + arguments + " -o d");

@@ -96,6 +96,8 @@ const std::vector<BadConfig> kBadData = {
      "c.yaml:7: recording.simulated names 2 files, expected one for each of recording: file (1), and for "
      "each "
      "of held_out (2) behind them"},
+    {"simulated_is_recorded", with(kRecorded, "  resample", "  simulated: ./train.csv\n  resample"),
+     "c.yaml:7: recording.simulated names ./train.csv, which is named already"},
     {"no_files", recorded("train.csv", "[]"), "c.yaml:3: recording.file is an empty list"},
     {"column_twice", recorded("input: u", "input: x1"),
      "c.yaml:5: recording.columns.position uses the column x1 twice"},
