@@ -40,6 +40,8 @@ inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
 /// In the help of every command that draws.
 inline constexpr const char* kSvgHelp = "each figure also as SVG, its text as text";
+inline constexpr const char* kReportFolderHelp =
+    "folder of the report, new or with one of the same drive (default: reports/<name>)";
 
 /// @throws std::runtime_error naming what cannot be written
 void write_text(const std::string& path, const std::string& text, const Replaceable& found = {});

@@ -11,6 +11,7 @@
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/text.h"
 #include "gapscope/commands/axis.h"
+#include "gapscope/commands/drive_folder.h"
 
 namespace gapscope::cli {
 namespace {
@@ -39,7 +40,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   require_reference_model(c);
   const std::string folder =
       (a.folder.empty() ? "reports/" + c.name : a.folder) + (a.axis.empty() ? "" : "/" + plain_part(a.axis));
-  ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
+  ReportFolder report = drive_folder(folder, c);
   DiagnosisOptions options = diagnosis_options(c);
   options.threads = a.threads;
   options.progress = progress_on_terminal(a.quiet);
@@ -66,8 +67,7 @@ void add_diagnose(CommandLine& app) {
   CommandLine command =
       app.add_command("diagnose", "Why the simulated drive does not move like the real one");
   add_config_arguments(command, arguments->config);
-  command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
-      .value("DIR");
+  command.add_option("-o,--output", arguments->folder, kReportFolderHelp).value("DIR");
   command
       .add_option("--axis", arguments->axis,
                   "axis that stands for {axis} in recording: columns; the report is in "

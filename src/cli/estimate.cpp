@@ -15,6 +15,7 @@
 #include "gapscope/base/shell_word.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/commands/axis.h"
+#include "gapscope/commands/drive_folder.h"
 #include "gapscope/report/changes_report.h"
 
 namespace gapscope::cli {
@@ -34,7 +35,7 @@ struct EstimateArguments {
 
 void estimate(const EstimateArguments& a, const Configuration& c, const std::string& folder,
               const Estimators& wanted, const std::string& axis = "") {
-  ReportFolder report(folder, FolderKind::kDrive, source_paths(c));
+  ReportFolder report = drive_folder(folder, c);
   const Progress progress = progress_on_terminal(a.quiet);
   RunOutcome outcome = make_estimate(c, wanted, progress);
   const FinishFirst first;  // from here on a Ctrl-C takes nothing away that was estimated
@@ -74,8 +75,7 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
                 const std::shared_ptr<EstimateArguments>& arguments = std::make_shared<EstimateArguments>()) {
   CommandLine command = app.add_command(name, what);
   add_config_arguments(command, arguments->config);
-  command.add_option("-o,--output", arguments->folder, "folder of the report (default: reports/<name>)")
-      .value("DIR");
+  command.add_option("-o,--output", arguments->folder, kReportFolderHelp).value("DIR");
   command
       .add_option(
           "--axis", arguments->axis,

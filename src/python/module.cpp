@@ -9,6 +9,7 @@
 #include "gapscope/base/version.h"
 #include "gapscope/commands/check.h"
 #include "gapscope/commands/diagnose.h"
+#include "gapscope/commands/drive_folder.h"
 #include "gapscope/commands/estimate.h"
 #include "gapscope/commands/export.h"
 #include "gapscope/results/drive_card.h"
@@ -97,7 +98,7 @@ py::dict estimate(const Asked& asked, bool model_free, bool reference, const std
                   const py::object& progress) {
   return answer(asked, progress, [&](const Configuration& c, Answer& a, const Progress& tell) {
     std::optional<ReportFolder> report;
-    if (!output.empty()) report.emplace(output, FolderKind::kDrive, source_paths(c));
+    if (!output.empty()) report.emplace(drive_folder(output, c));
     RunOutcome outcome = make_estimate(c, {model_free, reference}, tell);
     if (outcome.result.model_free) a.map = outcome.result.model_free->map;
     if (report) {
@@ -121,7 +122,7 @@ py::dict diagnose(const Asked& asked, const std::vector<std::string>& excluded,
     take_simulated(simulated, c);
     require_reference_model(c);
     std::optional<ReportFolder> report;
-    if (!output.empty()) report.emplace(output, FolderKind::kDrive, source_paths(c));
+    if (!output.empty()) report.emplace(drive_folder(output, c));
     DiagnosisOptions options = diagnosis_options(c);
     options.threads = threads;
     options.progress = tell;

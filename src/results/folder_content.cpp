@@ -14,8 +14,6 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/input_file.h"
 #include "gapscope/base/shown.h"
-#include "results/file_hash_fields.h"
-#include "results/json_document.h"
 
 namespace gapscope::internal::results {
 namespace {
@@ -78,31 +76,6 @@ void require_unchanged(const fs::path& folder, const FileList& list, const std::
     refuse(folder, list.holds(file)
                        ? "holds " + gapscope::shown(file) + ", which was changed since gapscope wrote it"
                        : "holds " + gapscope::shown(file) + ", which gapscope did not write there");
-}
-
-struct Half {
-  std::string version;
-  std::vector<FileHash> sources;
-};
-
-Half read_half(const fs::path& path) {
-  const Json json = load_json(path.string());
-  JsonReader reader(json, path.string(), "");
-  Half half;
-  reader("version", half.version);
-  reader.added_list("sources", half.sources);
-  return half;
-}
-
-std::string half_difference(const Half& a, const Half& b) {
-  if (a.version != b.version) return "another version of gapscope";
-  const auto is_in = [](const FileHash& s, const std::vector<FileHash>& all) {
-    return std::find(all.begin(), all.end(), s) != all.end();
-  };
-  for (const Half* h : {&a, &b})
-    for (const FileHash& s : h->sources)
-      if (!is_in(s, a.sources) || !is_in(s, b.sources)) return "another " + printable(s.file, 100);
-  return "";
 }
 
 }  // namespace
@@ -278,21 +251,6 @@ void require_out_of_the_way(const fs::path& folder, const FileList* list,
     if (file == "results.sqlite")  // of another one what SQLite keeps beside it would become part of this one
       for (const std::string& other : files_left_alone(folder, "campaign")) in_the_way(other);
   }
-}
-
-std::string why_not_together(const fs::path& folder, const char* result, const std::string& version,
-                             const std::vector<FileHash>& sources) {
-  if (!is_there(folder / result)) return "";
-  std::string what;
-  try {
-    what = half_difference(read_half(folder / result), {version, sources});
-  } catch (const ConfigError&) {
-    what = "a file that cannot be read";
-  }
-  if (what.empty()) return "";
-  const bool diagnosis = std::string_view(result) == "diagnosis.json";
-  return std::string("The ") + (diagnosis ? "diagnosis" : "estimate") +
-         " that stood in this folder was dropped, as it was made from " + what + ".";
 }
 
 }  // namespace gapscope::internal::results

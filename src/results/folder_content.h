@@ -66,8 +66,4 @@ void require_no_input(const std::filesystem::path& folder, const FileList* list,
 void require_out_of_the_way(const std::filesystem::path& folder, const FileList* list,
                             const std::vector<std::string>& files);
 
-/// Why what is stored under a name is not of these sources; empty where it is, or is not there.
-std::string why_not_together(const std::filesystem::path& folder, const char* result,
-                             const std::string& version, const std::vector<FileHash>& sources);
-
 }  // namespace gapscope::internal::results

@@ -17,6 +17,7 @@
 #include "results/file_list.h"
 #include "results/folder_content.h"
 #include "results/replace_files.h"
+#include "results/stored_half.h"
 
 namespace gapscope {
 namespace fs = std::filesystem;
@@ -182,6 +183,10 @@ void ReportFolder::keep(const char* result, const std::vector<const char*>& othe
   for (const std::string& file : internal::results::files_below(from))
     if (file.starts_with("traces/") && file.starts_with("traces/held_out_") == held_out_traces)
       take_over(file);
+}
+
+void ReportFolder::require_same_data(const ReportedData& data) const {
+  internal::results::require_same_data(final_, data);
 }
 
 void ReportFolder::keep_estimate(const std::string& version, const std::vector<FileHash>& sources) {

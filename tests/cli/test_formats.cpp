@@ -33,11 +33,11 @@ void record_twice(const Workplace& place) {
   mat.array("ticks", MAT_C_INT32, MAT_T_INT32, {1, counts.size()}, counts.data());
 }
 
-nlohmann::json model_free(Workplace& place, const std::string& yaml) {
+nlohmann::json model_free(Workplace& place, const std::string& yaml, const std::string& report = "report") {
   place.file("c.yaml", yaml);
-  const auto run = place.run("detect c.yaml -o report");
+  const auto run = place.run("detect c.yaml -o " + report);
   EXPECT_EQ(run.status, 0) << run.err;
-  return nlohmann::json::parse(testing::text_of(place.folder() / "report/result.json"))["model_free"];
+  return nlohmann::json::parse(testing::text_of(place.folder() / report / "result.json"))["model_free"];
 }
 
 constexpr const char* kMat =
@@ -47,7 +47,7 @@ constexpr const char* kMat =
 TEST(Formats, AMatFileInUnitsOfItsOwnGivesTheGapOfTheCsv) {
   Workplace place;
   record_twice(place);
-  const auto si = model_free(place, "recording: {file: si.csv}\nencoder: {bits: 18}\n");
+  const auto si = model_free(place, "recording: {file: si.csv}\nencoder: {bits: 18}\n", "si");
   const auto mat = model_free(place, std::string("recording:\n") + kMat + "encoder: {bits: 18}\n");
   EXPECT_EQ(si["verdict"], "backlash");
   EXPECT_NEAR(si["gap_rad"].get<double>(), mat["gap_rad"].get<double>(), 1e-9);

@@ -78,6 +78,22 @@ TEST_F(UserFiles, ARecordingInTracesOfTheWorkingFolderStays) {
   expect_refused("detect w.yaml -o w", "w: holds 'traces' and no report of gapscope");
 }
 
+TEST_F(UserFiles, AReportOfAnotherDriveIsNotReplaced) {
+  ASSERT_EQ(
+      place_.run("simulate c.yaml --set simulation.seed=7 --set simulation.noise=1e-5 -o other.csv").status,
+      0);
+  place_.file("other.yaml", "recording: {file: other.csv}\nmodel: " + std::string(testing::kPaperModel));
+  for (const char* command : {"detect", "run", "diagnose"})
+    expect_refused(command + std::string(" other.yaml -o r"),
+                   "r: holds the report of other data (rec, of drive.csv)");
+  expect_refused("detect c.yaml -o r", "r: holds the report of other data (rec, of drive.csv)");
+  EXPECT_EQ(place_.run("detect rec.yaml --set recording.window=[0,2.5] -o r").status, 0) << "the same drive";
+  ASSERT_EQ(place_.run("detect rec.yaml").status, 0);
+  expect_refused("detect other.yaml --set name=rec", "reports/rec: holds the report of other data");
+  fs::copy_file(at("other.csv"), at("drive.csv"), fs::copy_options::overwrite_existing);
+  expect_refused("detect rec.yaml -o r", "(rec, of drive.csv as it was then)");
+}
+
 TEST_F(UserFiles, AFolderWithAReportOfTheUsersOwnIsNotTaken) {
   place_.file("user/report.md", "![setup](setup.png)");
   place_.file("user/setup.png", "a photograph");

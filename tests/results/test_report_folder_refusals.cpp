@@ -94,6 +94,36 @@ TEST(ReportFolder, RefusesAReportOfAnotherKind) {
   EXPECT_EQ(refused(scratch.path / "check", FolderKind::kBlind), "");
 }
 
+/// Of one that is stored, and of data that come; whether these are refused.
+bool are_other(const std::string& name, const std::string& sources, const ReportedData& data) {
+  ScratchFolder scratch;
+  write(scratch.path, {"diagnosis.json"},
+        R"({"name": ")" + name + R"(", "version": "1", "sources": [)" + sources + "]}");
+  ReportFolder folder(scratch.path.string(), FolderKind::kDrive);
+  EXPECT_TRUE(folder.replaces());
+  const std::string said = refusal([&] { folder.require_same_data(data); });
+  EXPECT_TRUE(said.empty() || said.find("holds the report of other data (" + name) != said.npos) << said;
+  return !said.empty();
+}
+
+TEST(ReportFolder, KnowsADriveByItsRecordingsAndASimulationByItsName) {
+  const std::string asked = R"({"file": "configuration", "sha256": "0"})",
+                    recorded =
+                        asked + R"(, {"file": "a.csv", "sha256": "1"}, {"file": "b.csv", "sha256": "2"})";
+  const FileHash configuration{"configuration", "9"};
+  EXPECT_FALSE(are_other("rig", recorded, {"rig", false, {configuration, {"a.csv", "1"}}}));
+  EXPECT_FALSE(are_other("rig", recorded, {"renamed", false, {configuration, {"moved.csv", "2"}}}));
+  EXPECT_TRUE(are_other("rig", recorded, {"rig", false, {configuration, {"a.csv", "3"}}}));
+  EXPECT_TRUE(are_other("rig", recorded, {"rig", true, {configuration}})) << "simulated";
+  EXPECT_TRUE(are_other("rig", asked, {"rig", false, {configuration, {"a.csv", "1"}}})) << "simulated before";
+  EXPECT_FALSE(are_other("rig", asked, {"rig", true, {configuration}}));
+  EXPECT_TRUE(are_other("rig", asked, {"arm", true, {configuration}}));
+  EXPECT_FALSE(are_other("rig", recorded, {"rig", false, {configuration, {"gone.csv", ""}}}))
+      << "what is not there is told by who reads it";
+  EXPECT_FALSE(are_other("rig", "", {"arm", false, {configuration, {"a.csv", "1"}}}))
+      << "of an older version";
+}
+
 TEST(ReportFolder, RefusesAListThatReachesOutside) {
   for (const char* file : {"../victim.txt", "/victim.txt", "traces/../../victim.txt", "traces/..", ""}) {
     ScratchFolder scratch;

@@ -18,6 +18,14 @@ struct FileList;
 /// What a folder holds. A folder takes reports of one kind.
 enum class FolderKind { kDrive, kCampaign, kBlind, kCases, kDrives, kChanges, kExport };
 
+/// What the report of a drive is made from. The same recordings are the same drive, whatever is asked of
+/// them.
+struct ReportedData {
+  std::string name;               ///< of the configuration: by it a simulated drive is known
+  bool simulated = false;         ///< nothing was recorded
+  std::vector<FileHash> sources;  ///< as the result has them
+};
+
 /// A folder that is written whole or not at all, and in which nothing is touched that gapscope did not write
 /// there. It is taken before the work: files.json in it lists what gapscope wrote, with SHA-256, and only
 /// what is listed and unchanged since may be replaced or removed. A folder that holds anything else instead
@@ -44,6 +52,13 @@ class ReportFolder {
 
   /// Where to write; exists and is empty at the start.
   const std::string& path() const { return partial_; }
+
+  /// Whether a report stands there that this one takes the place of.
+  bool replaces() const { return before_ != nullptr; }
+
+  /// Before the work: what stands there must be of one of these recordings, or of this simulation, as the new
+  /// report takes its place.  @throws ConfigError
+  void require_same_data(const ReportedData& data) const;
 
   // Each takes over what the other kind of command stored here, so that the new report shows it too, if it is
   // of the same version, configuration and recordings; else it is dropped, and dropped() says so.
