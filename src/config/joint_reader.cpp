@@ -1,6 +1,11 @@
 #include "config/joint_reader.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 #include "config/mjcf_include.h"
@@ -52,6 +57,65 @@ double inertia_about(const std::vector<double>& axis, double mass, const std::ve
   return own + mass * (u * u + v * v + w * w);
 }
 
+void refuse_element(const std::string& file, const XMLElement& e, const std::string& what) {
+  if (e.GetLineNum() > 0) throw ConfigError(file, e.GetLineNum(), what);
+  throw ConfigError(file, what);
+}
+
+namespace {
+
+/// "joint 'elbow'", of what is in it as well
+std::string part_words(const XMLElement& e) {
+  const XMLElement* part = &e;
+  const auto is_part = [](const XMLElement& p) {
+    const std::string kind = p.Name();
+    return p.Attribute("name") != nullptr || kind == "body" || kind == "link" || kind == "joint";
+  };
+  while (!is_part(*part) && part->Parent() != nullptr && part->Parent()->ToElement() != nullptr)
+    part = part->Parent()->ToElement();
+  const char* const name = part->Attribute("name");
+  return printable(part->Name(), 40) + " " + (name == nullptr ? "without a name" : shown(name));
+}
+
+}  // namespace
+
+double amount(const std::string& file, const XMLElement& e, const char* attribute, double value) {
+  if (value < 0.0)
+    refuse_element(
+        file, e,
+        fmt::format("{} of {} is {:g}, expected 0 or more",
+                    std::strcmp(attribute, "value") == 0 ? e.Name() : attribute, part_words(e), value));
+  return value;
+}
+
+void require_direction(const std::string& file, const XMLElement& e, const std::vector<double>& axis) {
+  for (const double along : axis)
+    if (along != 0.0) return;
+  refuse_element(file, e, fmt::format("axis of {} is 0 0 0, expected a direction", part_words(e)));
+}
+
+const XMLElement* only_one(const std::string& file, const std::vector<const XMLElement*>& of_that_name) {
+  if (of_that_name.size() > 1)
+    refuse_element(file, *of_that_name[1],
+                   part_words(*of_that_name[1]) + " is there twice, expected each name once");
+  return of_that_name.empty() ? nullptr : of_that_name.front();
+}
+
+void require_type(const std::string& file, const XMLElement& joint, const std::string& type,
+                  const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), type) == known.end())
+    refuse_element(file, joint,
+                   fmt::format("{} is of type {}, expected {}: one that turns or slides along one axis",
+                               part_words(joint), shown(type), fmt::join(known, " or ")));
+}
+
+std::string xml_problem(tinyxml2::XMLError problem) {
+  if (problem == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
+    return fmt::format("is nested too deep, expected at most {} elements one in the other",
+                       TINYXML2_MAX_ELEMENT_DEPTH);
+  return "cannot be read as XML, expected an MJCF or URDF";
+}
+
 void no_such_joint(const XMLElement& top, const std::string& file, const std::string& joint) {
   std::string names;
   for (const XMLElement* e : elements_below(top, "joint"))
@@ -66,7 +130,8 @@ void no_such_joint(const XMLElement& top, const std::string& file, const std::st
 JointNumbers joint_numbers(const std::string& path, const std::string& joint) {
   using namespace internal::config;
   tinyxml2::XMLDocument document;
-  if (!load_xml(path, document)) throw ConfigError(path, "cannot be read as XML, expected an MJCF or URDF");
+  if (const std::string problem = load_xml(path, document); !problem.empty())
+    throw ConfigError(path, problem);
   const tinyxml2::XMLElement& top = *document.RootElement();
   const std::string kind = top.Name();
   if (kind != "mujoco" && kind != "robot")

@@ -68,16 +68,23 @@ class Mjcf {
     return found.empty() ? otherwise : found[0];
   }
 
+  /// Of what nobody takes a negative number for.  @throws ConfigError
+  double amount_of(const tinyxml2::XMLElement& e, const char* attribute, double otherwise) const {
+    return amount(file_, e, attribute, value(e, attribute, otherwise));
+  }
+
+  bool slides(const tinyxml2::XMLElement& joint) const { return word(joint, "type", "hinge") == "slide"; }
+
   /// An angle of a joint, or a length of a slide, in rad or m.
   double turned(const tinyxml2::XMLElement& joint, const char* attribute) const {
-    return value(joint, attribute, 0.0) * (has_attribute(&joint, "type", "slide") ? 1.0 : angle_unit());
+    return value(joint, attribute, 0.0) * (slides(joint) ? 1.0 : angle_unit());
   }
 
   /// Of a joint, in rad or m.
   double range_width(const tinyxml2::XMLElement& joint) const {
     const auto range = values(joint, "range");
     if (range.size() < 2) return kNaN;
-    return (range[1] - range[0]) * (has_attribute(&joint, "type", "slide") ? 1.0 : angle_unit());
+    return (range[1] - range[0]) * (slides(joint) ? 1.0 : angle_unit());
   }
 
  private:

@@ -64,7 +64,8 @@ class Includes {
       refuse(fmt::format("expected at most {} files one in the other, and {} in all", kDeepestInclude,
                          kMostIncludes));
     tinyxml2::XMLDocument part;
-    if (!load_xml(path.string(), part)) refuse("which cannot be read as XML, expected an MJCF");
+    if (const std::string problem = load_xml(path.string(), part); !problem.empty())
+      refuse("which " + problem);
     follow(*part.RootElement(), (first_.parent_path() / given).string(), depth + 1);
     put_in_place(include, *part.RootElement());
   }
@@ -83,11 +84,11 @@ class Includes {
 
 }  // namespace
 
-bool load_xml(const std::string& path, tinyxml2::XMLDocument& document) {
+std::string load_xml(const std::string& path, tinyxml2::XMLDocument& document) {
   std::ifstream in = open_input_file(path, "an MJCF or URDF");
   const std::string text(std::istreambuf_iterator<char>(in), {});
-  return document.Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS &&
-         document.RootElement() != nullptr;
+  const tinyxml2::XMLError problem = document.Parse(text.data(), text.size());
+  return problem == tinyxml2::XML_SUCCESS && document.RootElement() != nullptr ? "" : xml_problem(problem);
 }
 
 void follow_includes(tinyxml2::XMLDocument& document, const std::string& path) {

@@ -6,8 +6,9 @@
 
 namespace gapscope::internal::config {
 
-/// @returns whether the file is XML with a root  @throws ConfigError where it is none that can be read
-bool load_xml(const std::string& path, tinyxml2::XMLDocument& document);
+/// @returns why the file is no XML with a root; empty where it is one  @throws ConfigError where it cannot be
+/// read
+std::string load_xml(const std::string& path, tinyxml2::XMLDocument& document);
 
 /// Puts what stands in the files that an MJCF includes in the place of each <include file="..."/>, as MuJoCo
 /// does: below the root of that file, which may include others; every name is relative to the folder of the

@@ -19,10 +19,16 @@ using tinyxml2::XMLElement;
 /// A joint whose range is below this stands for a gap where it has a neighbour on its body [rad].
 constexpr double kWidestGap = 0.35;
 
+/// @throws ConfigError for one that neither turns nor slides, and where there are two
 const XMLElement* joint_named(const Mjcf& m, const std::string& name) {
+  std::vector<const XMLElement*> found;
   for (const XMLElement* e : elements_below(m.top(), "joint"))
-    if (has_attribute(e, "name", name) && std::strcmp(e->Parent()->Value(), "body") == 0) return e;
-  return nullptr;
+    if (has_attribute(e, "name", name) && std::strcmp(e->Parent()->Value(), "body") == 0) found.push_back(e);
+  const XMLElement* const joint = only_one(m.file(), found);
+  if (joint == nullptr) return nullptr;
+  require_type(m.file(), *joint, m.word(*joint, "type", "hinge"), {"hinge", "slide"});
+  if (const auto axis = m.values(*joint, "axis"); !axis.empty()) require_direction(m.file(), *joint, axis);
+  return joint;
 }
 
 /// How the compiled model tells what this file does not.
@@ -42,14 +48,14 @@ double body_inertia_of(const Mjcf& m, const XMLElement& joint, std::vector<std::
   if (!fixed.moving.empty())
     notes.push_back(
         "the inertia is that of the joint's own body and the armature, not of the bodies behind it");
-  if (has_attribute(&joint, "type", "slide")) return fixed.mass;
+  if (m.slides(joint)) return fixed.mass;
   const Eigen::Vector3d axis = three_of(m, joint, "axis", Eigen::Vector3d::UnitZ());
   return fixed.inertia_about(axis, three_of(m, joint, "pos"));
 }
 
 /// With the armature.
 double inertia_with(const Mjcf& m, const XMLElement& joint, double body) {
-  const double armature = m.value(joint, "armature", 0.0);
+  const double armature = m.amount_of(joint, "armature", 0.0);
   if (std::isfinite(body)) return armature + body;
   return armature > 0.0 ? armature : kNaN;
 }
@@ -65,8 +71,8 @@ void read_load(const Mjcf& m, const XMLElement& load, const std::string& name, J
   n.load_joint = name;
   n.load_body_inertia = body_inertia_of(m, load, n.notes);
   n.load_inertia = inertia_with(m, load, n.load_body_inertia);
-  n.load_damping = m.value(load, "damping", 0.0);
-  n.load_friction = m.value(load, "frictionloss", 0.0);
+  n.load_damping = m.amount_of(load, "damping", 0.0);
+  n.load_friction = m.amount_of(load, "frictionloss", 0.0);
   n.load_constant_torque = actuation_of(m, name).constant;
 }
 
@@ -151,11 +157,11 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   if (joint == nullptr) no_such_joint(mujoco, file, name);
   JointNumbers n;
   read_place(m, *joint, n);
-  n.slides = has_attribute(joint, "type", "slide");
+  n.slides = m.slides(*joint);
   n.body_inertia = body_inertia_of(m, *joint, n.notes);
   n.inertia = inertia_with(m, *joint, n.body_inertia);
-  n.damping = m.value(*joint, "damping", 0.0);
-  n.friction = m.value(*joint, "frictionloss", 0.0);
+  n.damping = m.amount_of(*joint, "damping", 0.0);
+  n.friction = m.amount_of(*joint, "frictionloss", 0.0);
   read_actuation(m, name, n);
   const XMLElement* const load = read_tendon(m, name, n);
   if (!(n.gap > 0.0)) read_neighbour(m, *joint, n);

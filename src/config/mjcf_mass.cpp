@@ -63,8 +63,8 @@ class Geom {
   /// Of no mass whatever its shape, as those that are only seen.
   bool has_none() const {
     if (type_ == "plane" || type_ == "hfield") return true;
-    if (m_.text(e_, "mass") != nullptr) return m_.value(e_, "mass", 0.0) == 0.0;
-    return m_.value(e_, "density", kDensity) == 0.0;
+    if (m_.text(e_, "mass") != nullptr) return m_.amount_of(e_, "mass", 0.0) == 0.0;
+    return m_.amount_of(e_, "density", kDensity) == 0.0;
   }
   /// Why its mass cannot be computed; empty: it can.
   std::string unknown() const {
@@ -152,12 +152,13 @@ class Sum {
 
  private:
   void add_inertial(const XMLElement& e, const Vector3d& at, const Matrix3d& turn) {
-    auto t = m_.values(e, "fullinertia");
-    if (t.empty()) t = m_.values(e, "diaginertia");
+    const char* const form = m_.text(e, "fullinertia") != nullptr ? "fullinertia" : "diaginertia";
+    auto t = m_.values(e, form);
     t.resize(6, 0.0);
+    for (const double own : {t[0], t[1], t[2]}) amount(m_.file(), e, form, own);
     Matrix3d own;
     own << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
-    add_mass(*e.Parent()->ToElement(), m_.value(e, "mass", 0.0), at + turn * three_of(m_, e, "pos"),
+    add_mass(*e.Parent()->ToElement(), m_.amount_of(e, "mass", 0.0), at + turn * three_of(m_, e, "pos"),
              turn * turn_of(m_, e), own);
   }
 

@@ -153,6 +153,65 @@ TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
   EXPECT_THAT(n.notes.back(), HasSubstr("not taken: gravity on the link, at most 1.96 N m"));
 }
 
+/// An MJCF of one joint whose file has 3 lines.
+std::string one_joint(const std::string& joint, const std::string& inertial = "mass='1' diaginertia='1 1 1'",
+                      const std::string& more = "") {
+  return "<mujoco><worldbody><body name='arm'>\n<inertial pos='0 0 0' " + inertial +
+         "/>\n<joint name='elbow' " + joint + "/>" + more + "</body></worldbody></mujoco>";
+}
+
+/// A URDF of one joint and its link.
+std::string one_link(const std::string& joint, const std::string& axis = "0 0 1",
+                     const std::string& mass = "1", const std::string& ixx = "1") {
+  return "<robot name='r'><link name='arm'><inertial>\n<mass value='" + mass + "'/><inertia ixx='" + ixx +
+         "' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>\n<joint name='elbow' " + joint +
+         "><axis xyz='" + axis + "'/><child link='arm'/></joint></robot>";
+}
+
+TEST(JointNumbers, NoSimulatorTakesAreRefusedWithNameAndLine) {
+  for (const auto& [xml, said] : {
+           std::pair(one_joint("armature='-0.01'"),
+                     ":3: armature of joint 'elbow' is -0.01, expected 0 or more"),
+           std::pair(one_joint("damping='-1'"), ":3: damping of joint 'elbow' is -1, expected 0 or more"),
+           std::pair(one_joint("", "mass='-1' diaginertia='1 1 1'"), ":2: mass of body 'arm' is -1"),
+           std::pair(one_joint("", "mass='1' diaginertia='1 1 -1'"), ":2: diaginertia of body 'arm' is -1"),
+           std::pair(one_joint("", "mass='1' fullinertia='1 -2 1 0 0 0'"),
+                     ":2: fullinertia of body 'arm' is -2"),
+           std::pair(one_joint("type='ball'"),
+                     ":3: joint 'elbow' is of type 'ball', expected hinge or slide"),
+           std::pair(one_joint("type='foo'"), "is of type 'foo'"),
+           std::pair(one_joint("axis='0 0 0'"), ":3: axis of joint 'elbow' is 0 0 0, expected a direction"),
+           std::pair(one_joint("", "mass='1' diaginertia='1 1 1'", "\n<joint name='elbow' armature='0.5'/>"),
+                     ":4: joint 'elbow' is there twice, expected each name once"),
+           std::pair(one_link("type='fixed'"),
+                     ":3: joint 'elbow' is of type 'fixed', expected revolute or continuous or prismatic"),
+           std::pair(one_link("type='planar'"), "is of type 'planar'"),
+           std::pair(one_link(""), "is of type ''"),
+           std::pair(one_link("type='revolute'", "0 0 0"), ":3: axis of joint 'elbow' is 0 0 0"),
+           std::pair(one_link("type='revolute'", "0 0 1", "-1"), ":2: mass of link 'arm' is -1"),
+           std::pair(one_link("type='revolute'", "0 0 1", "1", "-3"), ":2: ixx of link 'arm' is -3"),
+           std::pair(one_link("type='revolute'/><joint name='elbow' type='revolute'"),
+                     ":3: joint 'elbow' is there twice"),
+       })
+    EXPECT_THAT(refused(xml, "elbow"), HasSubstr(said));
+}
+
+TEST(JointNumbers, OfATreeThatIsTooDeepSaySo) {
+  std::string deep = one_joint("armature='0.01'"), open, close;
+  for (int i = 0; i < 120; ++i) open += "<body>", close += "</body>";
+  deep.insert(deep.find("<body name"), open);
+  deep.insert(deep.find("</worldbody>"), close);
+  EXPECT_THAT(refused(deep, "elbow"), HasSubstr("is nested too deep, expected at most 100 elements"));
+}
+
+TEST(JointNumbers, TakeTheTypeOfAJointFromItsClass) {
+  const std::string xml =
+      "<mujoco><default><joint type='slide'/></default><worldbody><body><inertial pos='0.1 0 0' mass='2' "
+      "diaginertia='1 1 1'/><joint name='elbow'/></body></worldbody></mujoco>";
+  EXPECT_TRUE(read(xml, "elbow").slides);
+  EXPECT_DOUBLE_EQ(read(xml, "elbow").inertia, 2.0);
+}
+
 TEST(JointNumbers, AreRefusedWithWhatWasExpected) {
   EXPECT_THAT(refused("<mujoco><worldbody><body><joint name=\"hip\"/></body></worldbody></mujoco>", "knee"),
               HasSubstr("has no joint 'knee', expected one of: hip"));
