@@ -32,6 +32,7 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
       inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
   if (!told_as.empty()) checked.inspection.file = told_as;
   judge_for_unit(c.input_facts().unit, checked.inspection);
+  judge_for_encoder(c.position_quantum(), c.recording->units.position == "counts", checked.inspection);
   for (Finding& f : checked.inspection.findings) tell_unit(f, c);
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
   judge_for(purpose, checked.inspection);

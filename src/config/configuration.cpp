@@ -180,10 +180,7 @@ ReferenceModel Configuration::reference_model() const {
 }
 
 double Configuration::position_quantum() const {
-  if (!recording) return encoder.quantum;
-  const bool load =
-      encoder.sides == EncoderSides::kLoad && recording->reading.columns.load_reads_load_position();
-  return encoder.quantum / std::abs(load ? recording->gear.load_position : recording->gear.position);
+  return recording ? internal::config::position_quantum(encoder, *recording) : encoder.quantum;
 }
 
 const char* to_string(EncoderSides sides) {

@@ -202,6 +202,12 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
   return recording;
 }
 
+double position_quantum(const EncoderConfig& encoder, const RecordingConfig& recording) {
+  const bool load =
+      encoder.sides == EncoderSides::kLoad && recording.reading.columns.load_reads_load_position();
+  return encoder.quantum / std::abs(load ? recording.gear.load_position : recording.gear.position);
+}
+
 EncoderConfig read_encoder(const Value& value, Coordinates coordinates) {
   const Section section(value, {"bits", "quantum", "counts", "side"});
   const auto bits = section.find("bits"), quantum = section.find("quantum"), counts = section.find("counts"),

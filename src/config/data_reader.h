@@ -14,6 +14,9 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
 
 EncoderConfig read_encoder(const Value& value, Coordinates coordinates);
 
+/// Of the encoder that is read, seen on the axis of x1 [rad]; 0: not given.
+double position_quantum(const EncoderConfig& encoder, const RecordingConfig& recording);
+
 /// All but the plant. `model` of the block is left to the caller.
 SimulationConfig read_simulation(const Value& value, const std::string& folder);
 std::optional<Value> simulated_model(const Value& value);

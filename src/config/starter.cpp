@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "config/controller_reader.h"
+#include "config/data_reader.h"
 #include "config/starter_choice.h"
 #include "config/starter_motor.h"
 #include "config/starter_order.h"
@@ -230,6 +231,8 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
   Inspection seen = inspected(config, recording, options, coordinates);
+  judge_for_encoder(internal::config::position_quantum(encoder, config), config.units.position == "counts",
+                    seen);
   if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen);
   const bool irregular = !options.resample_rate && !seen.facts.uniform;
   if (irregular) options.resample_rate = round_down(seen.facts.rate);

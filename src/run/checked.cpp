@@ -37,6 +37,7 @@ Checked check_files(const Configuration& c, const std::vector<RecordedFile>& fil
   for (const RecordedFile& file : files) {
     Inspection seen = inspect(file.path, c.recording->reading_of(file, UnevenRows::kStamped), c.coordinates);
     judge_for_unit(c.input_facts().unit, seen);
+    judge_for_encoder(c.position_quantum(), c.recording->units.position == "counts", seen);
     Inspection told = seen;
     if (purpose == Purpose::kGap) judge_for(purpose, told);
     for (const Finding& f : told.findings) {

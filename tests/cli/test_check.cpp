@@ -1,6 +1,9 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/executable.h"
@@ -106,6 +109,27 @@ TEST(Check, InitWarnsOfADriveThatIsSwitchedOffInAHeldOutRecording) {
   EXPECT_THAT(place.run("init on.csv --held-out off.csv --model gap").err,
               AllOf(HasSubstr("warning: off.csv: input: "), HasSubstr("was the drive switched off there?")));
   EXPECT_EQ(place.run("init on.csv --model gap -o alone.yaml").err, "");
+}
+
+TEST(Check, CountsAreWholeNumbersAndAStepIsAsTheEncoderSays) {
+  Workplace place;
+  testing::Rows rows = testing::rig();
+  std::string grouped = "t\tu\tx1\n", whole = grouped;  // thousands with a comma, beside decimal commas
+  for (std::size_t i = 0; i < rows.t.size(); ++i) {
+    const long counts = 100000 + std::lround(rows.x1[i] / 6.283185307179586 * 262144.0);
+    std::string begin = fmt::format("{}\t{}\t", rows.t[i], rows.u[i]);
+    std::replace(begin.begin(), begin.end(), '.', ',');
+    grouped += begin + fmt::format("{},{:03}\n", counts / 1000, counts % 1000);
+    whole += begin + fmt::format("{},0\n", counts);
+  }
+  place.file("grouped.csv", grouped), place.file("whole.csv", whole);
+  const auto spoilt = place.run("check grouped.csv --position-unit counts --bits 18");
+  EXPECT_EQ(spoilt.status, 3) << spoilt.err;
+  EXPECT_THAT(spoilt.out, HasSubstr("x1 steps by 1/1000 of a count (23.97 nrad): counts are whole numbers"));
+  EXPECT_EQ(place.run("check whole.csv --position-unit counts --bits 18").status, 0);
+  place.file("r.csv", rows.csv());
+  EXPECT_THAT(place.run("check r.csv --bits 16").out,
+              HasSubstr("x1 steps by 23.97 µrad where encoder: says 95.87 µrad"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace gapscope {
 inline constexpr const char* kTimeRule = "time";                ///< rows in order, none missing, uniform
 inline constexpr const char* kInputRule = "input";              ///< its range and its noise
 inline constexpr const char* kPositionUnitRule = "unit of x1";  ///< as declared: not counts, degrees, turns
+inline constexpr const char* kEncoderRule = "encoder";          ///< its step, and the noise of a position
 /// On reversals of the motion: the one rule that concerns the detector alone.
 inline constexpr const char* kReversalsRule = "reversals";
 
@@ -90,6 +91,12 @@ void judge_for(Purpose purpose, Inspection& inspection);
 /// Of a current whose peak no motor has: it is likely one of mA.
 /// @param unit  of u, as it was declared: "A", "V", ...; empty: none was
 void judge_for_unit(const std::string& unit, Inspection& inspection);
+
+/// Of an encoder whose step is declared, where x1 steps otherwise: what one of them makes of it is not so. Of
+/// counts, which are whole numbers, a finer step spoils the estimates.
+/// @param quantum  as it is declared, on the axis of x1 [rad]; 0: it is not
+/// @param counts   x1 is recorded in counts of that encoder
+void judge_for_encoder(double quantum, bool counts, Inspection& inspection);
 
 /// Of an encoder on the load: no detector reads a gap there, so what the motion lacks for one spoils nothing,
 /// and no motion is asked for.
