@@ -119,6 +119,7 @@ Lines differences_of_making(std::span<const DriveReport> reports) {
   Lines lines;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const DriveReport& r = reports[i];
+    for (const std::string& doubt : r.doubts) lines.push_back(r.folder + ": " + doubt);
     add_misfit(r, lines);
     if (i == 0) continue;
     compare_given(reports.first(i), r, lines);

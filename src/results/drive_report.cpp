@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -5,6 +7,7 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/results/drive_changes.h"
 #include "gapscope/results/run_result.h"
+#include "results/file_list.h"
 
 namespace gapscope {
 namespace {
@@ -40,6 +43,32 @@ ExcitationFacts excited(const Recording& r) {
   return e;
 }
 
+void doubt_outside(const std::string& name, double value, const Interval& ci95, DriveReport& report) {
+  const double slack = 1e-9 * std::abs(value);  // of decimals
+  if (value < ci95.low - slack || value > ci95.high + slack)
+    report.doubts.push_back(fmt::format(
+        "{} is {:.6g} in result.json, outside its own interval of {:.6g} to {:.6g}: no estimate says that, "
+        "the file was changed",
+        name, value, ci95.low, ci95.high));
+}
+
+/// What only a file that was changed since can say.
+void add_doubts(const std::string& folder, DriveReport& report) {
+  constexpr const char* kResult = "result.json";
+  const auto list = internal::results::read_file_list(folder);
+  if (list && list->holds(kResult) && !list->wrote(folder, kResult))
+    report.doubts.emplace_back(
+        "result.json was changed since gapscope wrote it (files.json has its SHA-256)");
+  if (report.model_free) {
+    doubt_outside("the gap", report.model_free->gap, report.model_free->ci95, report);
+    const LostMotion& m = report.model_free->lost_motion;
+    doubt_outside("the lost motion", m.value, m.ci95, report);
+  }
+  if (!report.reference) return;
+  for (const FittedParameter& p : report.reference->parameters)
+    doubt_outside(p.key, p.value, report.reference->shown_interval(p), report);
+}
+
 }  // namespace
 
 DriveReport read_drive_report(const std::string& folder) {
@@ -58,6 +87,7 @@ DriveReport read_drive_report(const std::string& folder) {
   report.reference = std::move(run.reference);
   if (report.reference) report.reference->traces.clear();
   for (const Recording& r : run.recordings) report.recordings.push_back(excited(r));
+  add_doubts(folder, report);
   return report;
 }
 

@@ -67,5 +67,24 @@ TEST(Compare, AGapThatGrewIsToldAndOneThatDidNotIsNot) {
   EXPECT_FALSE(std::filesystem::exists(place.folder() / "other"));
 }
 
+TEST(Compare, ANumberThatWasChangedSinceIsWarnedOf) {
+  Workplace place;
+  make_report(place, "march", "0.019", 1);
+  make_report(place, "april", "0.019", 2);
+  const auto changed = nlohmann::json::parse(text_of(place.folder() / "reports/april/result.json"));
+  auto lie = changed;
+  lie["model_free"]["gap_rad"] = 0.029;
+  place.file("reports/april/result.json", lie.dump());
+  const auto told = place.run("compare reports/march reports/april");
+  EXPECT_EQ(told.status, 0);
+  EXPECT_THAT(told.err, HasSubstr("reports/april: result.json was changed since gapscope wrote it"));
+  EXPECT_THAT(told.err,
+              HasSubstr("reports/april: the gap is 0.029 in result.json, outside its own interval"));
+  EXPECT_THAT(told.err, ::testing::Not(HasSubstr("reports/march: ")));
+  std::filesystem::remove(place.folder() / "reports/april/files.json");
+  place.file("reports/april/result.json", changed.dump());
+  EXPECT_EQ(place.run("compare reports/march reports/april").err, "") << "copied without its list";
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -34,6 +34,7 @@ struct DriveReport {
   std::optional<GapEstimate> model_free;
   std::optional<FitSummary> reference;  ///< without its traces
   std::vector<ExcitationFacts> recordings;
+  std::vector<std::string> doubts = {};  ///< what is stored is not what gapscope wrote, as sentences
 };
 
 /// A quantity in one report.
