@@ -47,6 +47,13 @@ bool may_be_meant(std::string_view column, std::string_view name) {
                     [&](char a, char b) { return lower(a) == lower(b); });
 }
 
+/// Whether fields may be names of columns: several, with no sign that stands in settings, keys and code.
+bool are_names(const std::vector<std::string_view>& fields) {
+  return fields.size() > 1 && std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
+           return field.find_first_of(":=;{}<>$!@&*\\`\"'") == field.npos;
+         });
+}
+
 /// What a line is that is no header at all; empty where it may be one.
 std::string no_header(std::string_view line, const std::vector<std::string_view>& fields) {
   if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) return "is text in UTF-16";
@@ -102,12 +109,13 @@ std::string CsvRow::wanted() const {
                      columns_.reads_input() ? columns_.input : columns_.target, columns_.position);
 }
 
-/// The header as it is, its first columns.
+/// The header as it is, its first columns; nothing of a line that may be none, whoever's file that is.
 std::string CsvRow::there() const {
   constexpr std::size_t kMost = 6;
+  if (!knows_one_ && !are_names(fields_)) return "in the first line";
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(kMost, fields_.size()); ++i) names.push_back(shown(fields_[i]));
-  return fmt::format("{}{}", fmt::join(names, ", "), fields_.size() > kMost ? ", ..." : "");
+  return fmt::format("among {}{}", fmt::join(names, ", "), fields_.size() > kMost ? ", ..." : "");
 }
 
 /// How the name of a missing column is declared: of the one alone where the two others are there.
@@ -132,13 +140,12 @@ int CsvRow::place(const std::string& name, bool required) const {
                                     [&](std::string_view column) { return may_be_meant(column, name); });
     const bool of_motor = meant == fields_.end() && name == "x2" && name == columns_.position &&
                           std::find(fields_.begin(), fields_.end(), "x1") != fields_.end();
-    fail(fmt::format(
-        "there is no column {} among {}, expected a header with {}; other names{} are declared ({})",
-        shown(name), there(), wanted_with(name),
-        of_motor                 ? ", perhaps x1 here (--position x1),"
-        : meant == fields_.end() ? ""
-                                 : fmt::format(", perhaps {} here,", shown(*meant)),
-        how_declared(name)));
+    fail(fmt::format("there is no column {} {}, expected a header with {}; other names{} are declared ({})",
+                     shown(name), there(), wanted_with(name),
+                     of_motor                 ? ", perhaps x1 here (--position x1),"
+                     : meant == fields_.end() ? ""
+                                              : fmt::format(", perhaps {} here,", shown(*meant)),
+                     how_declared(name)));
   }
   if (std::find(found + 1, fields_.end(), name) != fields_.end())
     fail(fmt::format("the column {} is there twice, expected it once", shown(name)));
@@ -170,7 +177,7 @@ void CsvRow::header(std::string_view line) {
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   if (const std::string what = no_header(line, fields_); most.first < 3 && !what.empty())
     fail(what + ", expected a CSV in UTF-8 that begins with a header with " + wanted());
-  width_ = fields_.size();
+  width_ = fields_.size(), knows_one_ = most.first > 0;
   t_ = place(columns_.time, true);
   if (columns_.reads_input()) u_ = place(columns_.input, columns_.input_column == InputColumn::kRequired);
   x1_ = place(columns_.position, true);

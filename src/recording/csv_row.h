@@ -61,7 +61,7 @@ class CsvRow {
   std::size_t width_ = 0;
   std::int64_t line_ = 0;
   int t_ = -1, u_ = -1, x1_ = -1, x2_ = -1, voltage_ = -1, target_ = -1;
-  bool has_header_ = false;
+  bool has_header_ = false, knows_one_ = false;  // a column that is looked for is in it
 };
 
 }  // namespace gapscope::internal::recording
