@@ -12,6 +12,7 @@
 #include "gapscope/simulation/closed_loop.h"
 #include "gapscope/simulation/simulate.h"
 #include "independent_plant/simulate.h"
+#include "run/fastest_motion.h"
 
 namespace gapscope {
 namespace {
@@ -164,6 +165,7 @@ void require_unchanged(const Configuration& c, const std::vector<FileHash>& sour
 }
 
 Recording simulated_recording(const Configuration& c) {
+  internal::run::require_followable(c);
   const SimulationConfig& s = *c.simulation;
   SimulationOptions options;
   options.rate = s.rate;

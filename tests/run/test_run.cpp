@@ -6,6 +6,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/random.h"
+#include "gapscope/base/text.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
@@ -250,6 +251,21 @@ TEST(UnevenRecordings, AreResampledForTheDetectorAlone) {
   EXPECT_THAT(r.notes, ::testing::Contains(HasSubstr("for the detector alone resampled")));
   EXPECT_TRUE(
       run_pipeline(recorded.configuration(), {true, false}, kSilent).result.recordings.front().even());
+}
+
+/// The rig in rows of a millisecond, with another inertia of its motor.
+std::string with_inertia(const std::string& inertia) {
+  return "encoder: {bits: 18}\nsimulation: {rate: 1000, duration: 0.1, excitation: {sine: {amplitude: 0.58, "
+         "frequency: 1}}}\nmodel: " +
+         replaced(testing::kPaperModel, "8.78e-4", inertia);
+}
+
+TEST(SimulatedRecording, OfADriveThatMovesOutOfAllProportionToItsRowsIsRefused) {
+  EXPECT_EQ(simulated_recording(parse_configuration(with_inertia("1.0e-6"), "c.yaml")).size(), 100U);
+  const Configuration tiny = parse_configuration(with_inertia("1.0e-12"), "c.yaml");
+  EXPECT_THAT(testing::refusal([&] { simulated_recording(tiny); }),
+              ::testing::AllOf(HasSubstr("c.yaml:2: simulates a drive whose fastest motion"),
+                               HasSubstr("expected at most 1500: a larger motor_inertia")));
 }
 
 }  // namespace
