@@ -12,6 +12,7 @@
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
+#include "report/plain_markdown.h"
 #include "report/png_bytes.h"
 
 namespace gapscope::internal::report {
@@ -85,7 +86,7 @@ std::vector<Picture> write_report_files(const std::string& folder, const std::ve
     put_or_remove(path, pictures[i].png);
     put_or_remove(fs::path(path).replace_extension(".svg"), drawings[i]);
   }
-  write_bytes(fs::path(folder) / "report.md", text);
+  write_bytes(fs::path(folder) / "report.md", plain_markdown(text));
   return pictures;
 }
 

@@ -2,6 +2,7 @@
 
 #include "gapscope/report/report.h"
 #include "report/html_page.h"
+#include "report/plain_markdown.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
@@ -12,6 +13,7 @@ namespace {
 using internal::report::base64;
 using internal::report::html_body;
 using internal::report::html_line;
+using internal::report::plain_markdown;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -28,6 +30,25 @@ TEST(Html, ALineKeepsItsTextAndTakesNoMarkupOfItsOwn) {
   EXPECT_EQ(html_line("<script>"), "&lt;script&gt;");
   EXPECT_EQ(html_line("[x](http://a.b)"), "[x](http://a.b)") << "links leave the page nowhere";
   EXPECT_EQ(html_line("2 * 3"), "2 * 3");
+}
+
+TEST(PlainMarkdown, TakesWhatBeginsHtmlOrFetchesAPictureForText) {
+  EXPECT_EQ(plain_markdown("a <img src=x>.csv, 2 < 3, <, ![x](http://a.b)\n"),
+            "a &lt;img src=x>.csv, 2 < 3, <, &#33;[x](http://a.b)\n");
+  EXPECT_EQ(plain_markdown("</b> <!-- <?php \\<b>"), "&lt;/b> &lt;!-- &lt;?php \\&lt;b>");
+  for (const char* own : {"![rig: overview](overview.png)\n", "![x1 [rad] over t < 3 s](a_1.png)\n"})
+    EXPECT_EQ(plain_markdown(own), own);
+  for (const char* picture :
+       {"![a](http://b/c.png)", "![a](//b.png)", "![a](http://b) ](c.png)", "![a] <b>](c.png)"})
+    EXPECT_TRUE(plain_markdown(picture).starts_with("&#33;[a]")) << picture;
+}
+
+TEST(PlainMarkdown, LeavesCodeAloneWhereNoReaderCouldSeeOtherCode) {
+  EXPECT_EQ(plain_markdown("`compensation_<law>.csv` and ``a ` <b>``"),
+            "`compensation_<law>.csv` and ``a ` <b>``");
+  EXPECT_EQ(plain_markdown("| `a<b>` |"), "| `a<b>` |");
+  for (const char* odd : {"``a`<img>`", "\\`<img>`", "one `\n`<img>` two", "| `a | <img>` |", "`<img>` ``"})
+    EXPECT_THAT(plain_markdown(odd), HasSubstr("&lt;img>")) << odd;
 }
 
 TEST(Html, TablesHaveHeadingsAndRows) {
@@ -52,6 +73,19 @@ TEST(Html, APictureSaysHowManyColumnsItsLettersAreMadeFor) {
   EXPECT_THAT(page, HasSubstr("alt=\""
                               "rig_p: overview\" style=\"--columns:2\""));
   EXPECT_THAT(page, HasSubstr("style=\"--columns:1\""));
+}
+
+TEST(Html, ANameThatIsMarkupIsTextInBothReports) {
+  ScratchFolder scratch;
+  RunResult run = sample_run({.samples = 6000});
+  const std::string name = "<img src=x onerror=alert(1)> ![x](http://a.b)";
+  run.notes.push_back("`" + name + "` and " + name);
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  const std::string report = testing::text_of(scratch.path / "report.md");
+  EXPECT_THAT(report, HasSubstr(" and &lt;img src=x onerror=alert(1)> &#33;[x](http://a.b)"));
+  EXPECT_THAT(testing::text_of(scratch.path / "report.html"),
+              HasSubstr(" and &lt;img src=x onerror=alert(1)&gt; ![x](http://a.b)"));
 }
 
 TEST(Html, SectionsFoldAndAreClosedOneByOne) {
