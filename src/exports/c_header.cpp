@@ -186,6 +186,21 @@ std::string header_text(const ExportSource& s, const gsd_numbers& n) {
   return replaced(replaced(text, "gsd_", s.stem + "_"), "GSD_", upper(s.stem) + "_");
 }
 
+/// Of C, and of what its own headers include on Unix: a file of that name in a folder of -I hides them.
+constexpr const char* kSystemHeaders[] = {
+    "alloca",   "assert",      "complex", "ctype",    "dlfcn",     "endian",  "errno",  "fcntl",
+    "features", "fenv",        "float",   "inttypes", "iso646",    "limits",  "locale", "malloc",
+    "math",     "memory",      "poll",    "pthread",  "sched",     "setjmp",  "signal", "stdalign",
+    "stdarg",   "stdatomic",   "stdbit",  "stdbool",  "stdckdint", "stddef",  "stdint", "stdio",
+    "stdlib",   "stdnoreturn", "string",  "strings",  "tgmath",    "threads", "time",   "uchar",
+    "unistd",   "values",      "wchar",   "wctype"};
+
+std::string header_name(const std::string& stem) {
+  const bool hides = std::any_of(std::begin(kSystemHeaders), std::end(kSystemHeaders),
+                                 [&](const char* name) { return upper(name) == upper(stem); });
+  return (hides ? "drive_" : "") + stem + ".h";
+}
+
 TargetError error_of(const ExportSource& s, double& travel) {
   std::vector<double> times;
   for (std::size_t i = 0; i <= s.u.size(); ++i) times.push_back(s.dt * static_cast<double>(i));
@@ -218,7 +233,7 @@ DriveExport export_c(const ExportSource& s) {
     if (part.part == "gap" && s.drive.structure.contact == ContactLaw::kRigid)
       part = {"gap", Fidelity::kApproximate, "a stiff contact in place of the impact law"};
   c.errors.push_back(error_of(s, c.travel));
-  out.files = {{s.stem + ".h", header_text(s, numbers_of(s))}};
+  out.files = {{header_name(s.stem), header_text(s, numbers_of(s))}};
   return out;
 }
 

@@ -126,6 +126,17 @@ TEST(CHeader, MovesAsTheSimulatorDoesWithEveryEffectThatItSaysIsExact) {
   for (const char* effects : kContact) expect_same(kTwoBodies, effects);
 }
 
+TEST(CHeader, HidesNoHeaderOfTheSystem) {
+  Configuration c = rig_configuration(", mass_ratio: 0");
+  const auto file_of = [&](const char* name) {
+    c.name = name;
+    return export_drive(c, ExportFormat::kC).files[0].name;
+  };
+  EXPECT_EQ(file_of("rig"), "rig.h");
+  for (const char* name : {"math", "string", "Time", "features"})
+    EXPECT_EQ(file_of(name), "drive_" + std::string(name) + ".h");
+}
+
 TEST(CHeader, NamesWhatItsCodeDoesNotHave) {
   const DriveExport drive = export_drive(
       rig_configuration(kTwoBodies, "  effects: [{gap_eccentricity: {amplitude_rad: 1.0e-3}}]\n"),
