@@ -7,8 +7,8 @@ namespace gapscope::internal::reference {
 namespace {
 
 constexpr int kWindows = 24;  ///< the recordings are cut into about so many, for the scatter of scores
-constexpr int kPlaces = 21;   ///< of the counts under the motion that are tried, on a lattice with
-constexpr int kLattice = 8;   ///< this generator: both are Fibonacci numbers
+constexpr int kPlaces = 55;   ///< of the counts under the motion that are tried, on a lattice with
+constexpr int kLattice = 34;  ///< this generator: both are Fibonacci numbers
 constexpr std::size_t kMostLags = 2000;
 constexpr double kTriedDelay = 0.1;  ///< for a derivative; half and double of it give the same [rows]
 
@@ -48,7 +48,7 @@ Eigen::MatrixXd window_scores(const Part& part, Eigen::Index length, int& count)
   return sum;
 }
 
-/// How the counts lie under a motion, in quanta: where they begin, and by how much the whole travel is
+/// How the counts lie under a motion, in quanta: where its middle is, and by how much the whole travel is
 /// longer. The fitted motion rests and turns at counts, since the fit has drawn it there; the true one need
 /// not, and two such places that are off by the same would be no error but in the initial state.
 struct CountPlace {
@@ -63,8 +63,8 @@ CountPlace count_place(int j, int of, int generator) {
 /// quantiser spreads its error; the first harmonic falls by exp(−2π² (noise/quantum)²).
 struct Quantiser {
   double quantum = 0.0, floor = 1.0;
-  double size = 0.0;               ///< of an error of one quantum [floor]; 0: nothing of it is left
-  double low = 0.0, travel = 1.0;  ///< of the motion
+  double size = 0.0;                  ///< of an error of one quantum [floor]; 0: nothing of it is left
+  double middle = 0.0, travel = 1.0;  ///< of the motion
 
   Quantiser(const Eigen::VectorXd& residuals, const MotorTrace& recording, double recording_floor)
       : quantum(recording.quantum), floor(recording_floor) {
@@ -74,15 +74,15 @@ struct Quantiser {
     size = std::exp(-2.0 * kPi * kPi * noise * noise) * quantum / floor;
     if (size < 1e-3) size = 0.0;
     const auto [least, most] = std::minmax_element(recording.x1.begin(), recording.x1.end());
-    low = *least, travel = std::max(*most - *least, quantum);
+    middle = 0.5 * (*least + *most), travel = std::max(*most - *least, quantum);
   }
 
   Eigen::VectorXd error(const Eigen::VectorXd& residuals, const MotorTrace& recording,
                         CountPlace place) const {
     Eigen::VectorXd e(residuals.size());
     for (Eigen::Index i = 0; i < e.size(); ++i) {
-      const double x = recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor;
-      const double counts = x / quantum + place.phase + place.stretch * (x - low) / travel;
+      const double x = recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor - middle;
+      const double counts = x / quantum + place.phase + place.stretch * x / travel;
       e[i] = (std::nearbyint(counts) - counts) * size;
     }
     return e;
@@ -94,12 +94,14 @@ Eigen::MatrixXd quantiser_scores(const Part& part, const MotorTrace& recording, 
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   const Quantiser quantiser(part.residuals, recording, floor);
   if (quantiser.size == 0.0) return sum;
-  for (int j = 0; j < kPlaces; ++j) {
-    const Eigen::VectorXd score =
-        part.jacobian.transpose() *
-        quantiser.error(part.residuals, recording, count_place(j, kPlaces, kLattice));
-    sum += score * score.transpose() / kPlaces;
-  }
+  for (int j = 0; j < kPlaces; ++j)
+    for (const double side : {1.0, -1.0}) {  // as the same drive shows it whose axes point the other way
+      CountPlace place = count_place(j, kPlaces, kLattice);
+      place.phase *= side;
+      const Eigen::VectorXd score =
+          part.jacobian.transpose() * quantiser.error(part.residuals, recording, place);
+      sum += score * score.transpose() / (2.0 * kPlaces);
+    }
   return sum;
 }
 
