@@ -22,7 +22,7 @@ struct Source {
 };
 
 constexpr std::string_view kLetters = "ABWC";  ///< in the order of Base
-constexpr std::array<Source, 4> kSources = {{{"02_experiment", 0.019, 4.0},
+constexpr std::array<Source, 4> kSources = {{{"02_experiment", 0.019, 6.0},
                                              {"03_recording", 0.0218, 1.5},
                                              {"03_recording", 0.0218, 10.0},
                                              {"08_missing_cogging", 0.02, 4.0}}};
