@@ -64,8 +64,7 @@ class Includes {
       refuse(fmt::format("expected at most {} files one in the other, and {} in all", kDeepestInclude,
                          kMostIncludes));
     tinyxml2::XMLDocument part;
-    if (const std::string problem = load_xml(path.string(), part); !problem.empty())
-      refuse("which " + problem);
+    if (const std::string why = load_xml(path.string(), part); !why.empty()) refuse("which " + why);
     follow(*part.RootElement(), (first_.parent_path() / given).string(), depth + 1);
     put_in_place(include, *part.RootElement());
   }
