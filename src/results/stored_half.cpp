@@ -57,28 +57,28 @@ std::vector<FileHash> files_of(std::vector<FileHash> sources) {
   return sources;
 }
 
-bool share_one(const std::vector<FileHash>& a, const std::vector<FileHash>& b) {
+bool share_one(const std::vector<FileHash>& a, const std::vector<FileHash>& b, std::string FileHash::*what) {
   return std::any_of(a.begin(), a.end(), [&](const FileHash& f) {
-    return std::any_of(b.begin(), b.end(), [&](const FileHash& g) { return f.sha256 == g.sha256; });
+    return std::any_of(b.begin(), b.end(), [&](const FileHash& g) { return f.*what == g.*what; });
   });
 }
 
-/// Recordings are the same by what they hold, a simulation by its name. What cannot be told is no other.
+/// Recordings are the same by what they hold, or where a drive of the same name was recorded anew in the same
+/// file; a simulation by its name. What cannot be told is no other.
 bool are_other(const Half& stored, const ReportedData& data) {
   const std::vector<FileHash> before = files_of(stored.sources), now = files_of(data.sources);
   if (stored.sources.empty() || (!data.simulated && now.empty())) return false;
   if (data.simulated && stored.name != data.name) return true;
-  return !share_one(before, now) && !(before.empty() && now.empty());
+  if (before.empty() && now.empty()) return false;
+  const bool anew = stored.name == data.name && share_one(before, now, &FileHash::file);
+  return !anew && !share_one(before, now, &FileHash::sha256);
 }
 
 /// "rig, of train.csv", "rig, simulated"
-std::string held_words(const Half& stored, const ReportedData& data) {
-  std::string words = printable(stored.name, 100);
-  const std::vector<FileHash> files = files_of(stored.sources), now = files_of(data.sources);
-  if (files.empty()) return words + ", simulated";
-  const auto named = [&](const FileHash& f) { return f.file == files.front().file; };
-  return words + ", of " + printable(files.front().file, 100) +
-         (std::any_of(now.begin(), now.end(), named) ? " as it was then" : "");
+std::string held_words(const Half& stored) {
+  const std::vector<FileHash> files = files_of(stored.sources);
+  return printable(stored.name, 100) +
+         (files.empty() ? ", simulated" : ", of " + printable(files.front().file, 100));
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ void require_same_data(const fs::path& folder, const ReportedData& data) {
       throw ConfigError(folder.string(),
                         fmt::format("holds the report of other data ({}), expected another folder for the "
                                     "new one (-o), or the old one removed first",
-                                    held_words(*stored, data)));
+                                    held_words(*stored)));
   }
 }
 

@@ -31,7 +31,7 @@ double quantum_or_least_step(std::span<const double> x1) {
 
 double encoder_floor(const MotorTrace& trace) {
   const auto [low, high] = std::minmax_element(trace.x1.begin(), trace.x1.end());
-  return std::max({rounding_noise(trace.quantum), noise_at_rest(trace.x1, trace.stamps),
+  return std::max({rounding_noise(trace.quantum), noise_about_motion(trace.x1, trace.stamps),
                    kLeastFloor * (*high - *low), 1e-15});
 }
 

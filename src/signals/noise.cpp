@@ -1,7 +1,8 @@
 #include "signals/noise.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "gapscope/base/statistics.h"
@@ -10,22 +11,25 @@ namespace gapscope::internal::signals {
 namespace {
 
 constexpr double kSquares = 70.0;  ///< Σ binomial(4, i)²
-constexpr std::size_t kPoints = 5;
-constexpr std::size_t kWindow = 16, kFewestWindows = 4;
-constexpr std::size_t kSlowPart = 4;  ///< of so many windows one counts as at rest
+/// Of the differences that leave the noise about a motion: what a motion does between samples is left by the
+/// eighth ones a twentieth as much as by the fourth, and whole counts fall on so many values that their
+/// median is no step.
+constexpr std::size_t kPoints = 9;
 
-/// Σ c_k y_k over five samples with Σ c_k² = 1 and c_k ∝ 1/Π (t_k − t_j): a cubic drops out, white noise
-/// stays.
-double divided_difference(std::span<const double> y, std::span<const double> t) {
-  double sum = 0.0, square = 0.0;
+/// c_k ∝ 1/Π (t_k − t_j) with Σ c_k² = 1: of Σ c_k y_k a polynomial of the seventh degree drops out, white
+/// noise stays.
+std::array<double, kPoints> divided_difference(std::span<const double> t) {
+  std::array<double, kPoints> c{};
+  double square = 0.0;
   const double length = t[kPoints - 1] - t[0];
   for (std::size_t k = 0; k < kPoints; ++k) {
     double product = 1.0;
     for (std::size_t j = 0; j < kPoints; ++j)
       if (j != k) product *= (t[k] - t[j]) / length;
-    sum += y[k] / product, square += 1.0 / (product * product);
+    c[k] = 1.0 / product, square += c[k] * c[k];
   }
-  return sum / std::sqrt(square);
+  for (double& v : c) v /= std::sqrt(square);
+  return c;
 }
 
 }  // namespace
@@ -44,40 +48,16 @@ double noise_from_differences(std::span<const double> y) {
   return 1.4826 * median(std::move(d)) / std::sqrt(kSquares);
 }
 
-namespace {
-
-/// Differences of five samples in which white noise of σ leaves σ.
-std::vector<double> noise_differences(std::span<const double> y, std::span<const double> stamps) {
+double noise_about_motion(std::span<const double> y, std::span<const double> stamps) {
+  std::array<double, kPoints> even{};
+  std::iota(even.begin(), even.end(), 0.0);
+  std::array<double, kPoints> c = divided_difference(even);
   std::vector<double> d;
-  if (stamps.empty()) {
-    d = fourth_differences(y);
-    for (double& v : d) v /= std::sqrt(kSquares);
+  for (std::size_t i = 0; i + kPoints <= y.size(); ++i) {
+    if (!stamps.empty()) c = divided_difference(stamps.subspan(i, kPoints));
+    d.push_back(std::inner_product(c.begin(), c.end(), y.begin() + static_cast<std::ptrdiff_t>(i), 0.0));
   }
-  for (std::size_t i = 0; i + kPoints <= stamps.size(); ++i)
-    d.push_back(divided_difference(y.subspan(i, kPoints), stamps.subspan(i, kPoints)));
-  return d;
-}
-
-}  // namespace
-
-double noise_at_rest(std::span<const double> y, std::span<const double> stamps) {
-  const std::vector<double> d = noise_differences(y, stamps);
-  const auto window = [&](std::size_t w) { return std::span(d).subspan(w * kWindow, kWindow); };
-  std::vector<std::pair<double, std::size_t>> travels;
-  for (std::size_t w = 0; (w + 1) * kWindow <= d.size(); ++w) {
-    const auto part = y.subspan(w * kWindow, kWindow);
-    const auto [low, high] = std::minmax_element(part.begin(), part.end());
-    travels.emplace_back(*high - *low, w);
-  }
-  const std::size_t slow = travels.size() / kSlowPart;
-  if (slow < kFewestWindows) return robust_std(d);
-  std::nth_element(travels.begin(), travels.begin() + static_cast<std::ptrdiff_t>(slow), travels.end());
-  std::vector<double> slowest;
-  for (std::size_t i = 0; i < slow; ++i) {
-    const auto part = window(travels[i].second);
-    slowest.insert(slowest.end(), part.begin(), part.end());
-  }
-  return robust_std(slowest);
+  return robust_std(d);
 }
 
 }  // namespace gapscope::internal::signals

@@ -12,12 +12,11 @@ std::vector<double> fourth_differences(std::span<const double> y);
 /// σ of white noise on a signal [unit of y]: the median size of its fourth differences.
 double noise_from_differences(std::span<const double> y);
 
-/// The same where y is nearest to rest, of their spread about their median: what they have in common is none
-/// of the noise, nor is a motion that curves or jerks elsewhere. Taken from that quarter of all windows of 16
-/// samples in which y travels least; of few samples from all.
+/// The same about any smooth motion, however seldom it is sampled: the spread of eighth differences about
+/// their median (what they have in common is none of the noise).
 /// @param stamps  time of each sample, for divided differences, which smooth motion leaves as well [s];
 /// empty: evenly
 ///                sampled
-double noise_at_rest(std::span<const double> y, std::span<const double> stamps = {});
+double noise_about_motion(std::span<const double> y, std::span<const double> stamps = {});
 
 }  // namespace gapscope::internal::signals

@@ -41,12 +41,7 @@ TEST(RunResult, ComesBackExactly) {
   EXPECT_EQ(a.configuration, b.configuration);
   EXPECT_EQ(a.coordinates, b.coordinates);
   EXPECT_EQ(a.notes, b.notes);
-  ASSERT_EQ(a.doubts.size(), b.doubts.size());
-  for (std::size_t i = 0; i < a.doubts.size(); ++i) {
-    EXPECT_EQ(a.doubts[i].code, b.doubts[i].code);
-    EXPECT_EQ(a.doubts[i].found, b.doubts[i].found);
-    EXPECT_EQ(a.doubts[i].advice, b.doubts[i].advice);
-  }
+  EXPECT_EQ(a.doubts, b.doubts);
   EXPECT_SAME(simulated_gap);
   EXPECT_SAME(comparison->difference);
   EXPECT_SAME(comparison->joint_std);

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
+#include "run/changed_rows.h"
 #include "support/paper_model.h"
 
 namespace gapscope {
@@ -18,23 +18,19 @@ using ::testing::HasSubstr;
 
 const Progress kSilentRun = [](const std::string&) {};
 
-using Rows = Recording;
-
 /// The paper's rig, made by the plant that shares no code with the fit.
-Rows rows_of_rig() {
+Recording rows_of_rig() {
   const std::string yaml =
       "encoder: {bits: 18}\nsimulation: {plant: independent, rate: 1000, duration: 4, excitation: {sine: "
       "{amplitude: "
       "0.58, frequency: 1}}}\nmodel: " +
       std::string(testing::kPaperModel);
-  Rows r = simulated_recording(parse_configuration(yaml, "rig.yaml"));
-  r.x2.clear(), r.mode.clear();
-  return r;
+  return recorded(simulated_recording(parse_configuration(yaml, "rig.yaml")));
 }
 
 /// A recording in a folder of its own, with a configuration that finds gap, damping and mass ratio in it.
 struct Drive {
-  explicit Drive(const Rows& rows) {
+  explicit Drive(const Recording& rows) {
     write_csv((folder.path / "drive.csv").string(), rows);
     std::ofstream((folder.path / "drive.yaml").string())
         << "recording: {file: drive.csv}\nencoder: {bits: 18}\nmodel: " << testing::kPaperModel;
@@ -45,33 +41,10 @@ struct Drive {
   ScratchFolder folder;
 };
 
-Rows held(Rows r, std::size_t n) {
-  for (std::size_t i = 0; i < r.size(); ++i) r.x1[i] = r.x1[i - i % n];
-  return r;
-}
-
-Rows twice(const Rows& r, bool on_lines) {
-  Rows t = r;
-  t.dt = 0.5 * r.dt, t.u.clear(), t.x1.clear();
-  for (std::size_t i = 0; i + 1 < r.size(); ++i) {
-    const double part = on_lines ? 0.5 : 0.0;
-    t.u.push_back(r.u[i]), t.u.push_back(r.u[i] + part * (r.u[i + 1] - r.u[i]));
-    t.x1.push_back(r.x1[i]), t.x1.push_back(r.x1[i] + part * (r.x1[i + 1] - r.x1[i]));
-  }
-  return t;
-}
-
-Rows every_second(const Rows& r) {
-  Rows s = r;
-  s.dt = 2.0 * r.dt, s.u.clear(), s.x1.clear();
-  for (std::size_t i = 0; i < r.size(); i += 2) s.u.push_back(r.u[i]), s.x1.push_back(r.x1[i]);
-  return s;
-}
-
 TEST(FilledRows, AreADoubtThatNoNumberOfThemIsTrustedWellWith) {
-  const Rows rig = rows_of_rig();
+  const Recording rig = rows_of_rig();
   EXPECT_EQ(Drive(rig).estimate().answer->trust, AnswerTrust::kGood);
-  for (const Rows& filled : {held(rig, 2), held(rig, 4), twice(rig, false), twice(rig, true)}) {
+  for (const Recording& filled : {held(rig, 2), held(rig, 4), twice(rig, false), twice(rig, true)}) {
     const RunResult r = Drive(filled).estimate();
     ASSERT_FALSE(r.doubts.empty());
     EXPECT_EQ(r.doubts.front().code, "fresh_samples") << r.doubts.front().found;
