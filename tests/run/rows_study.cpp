@@ -1,6 +1,7 @@
 // Rows that are not what they seem: drives of the independent plant as they were recorded, every second row,
 // every row twice, x1 held over two rows, and a line between the rows, through check, run and diagnose.
-//   study_rows FIRST LAST FOLDER [run|diagnose]    e.g. study_rows 3001 3040 /tmp/rows run
+//   study_rows FIRST LAST FOLDER [run|diagnose] [recorded|second|twice|held|line]
+// e.g. study_rows 5101 5140 rows run; study_rows 5101 5140 rows diagnose second
 // Prints for each how many check finds filled, how many numbers are told, how many with good trust, and how
 // many of these miss the gap. Recordings stay in FOLDER; without a command check alone is asked.
 #include <fmt/format.h>
@@ -71,12 +72,14 @@ void count(const std::string& folder, const std::string& drive, double gap, cons
   std::fflush(stdout);
 }
 
-int study(std::uint64_t first, std::uint64_t last, const std::string& folder, const std::string& command) {
+int study(std::uint64_t first, std::uint64_t last, const std::string& folder, const std::string& command,
+          const std::string& only) {
   std::vector<Kind> kinds = {{"recorded", [](const Recording& r) { return r; }},
                              {"second", [](const Recording& r) { return every_second(r); }},
                              {"twice", [](const Recording& r) { return twice(r, false); }},
                              {"held", [](const Recording& r) { return held(r, 2); }},
                              {"line", [](const Recording& r) { return twice(r, true); }}};
+  if (!only.empty()) std::erase_if(kinds, [&](const Kind& k) { return k.name != only; });
   write_random_drives(RandomDriveKind::kGap, first, last, folder, {});
   const std::vector<double> gaps = true_gaps(folder);
   for (std::uint64_t seed = first; seed <= last; ++seed)
@@ -91,6 +94,7 @@ int study(std::uint64_t first, std::uint64_t last, const std::string& folder, co
 }  // namespace gapscope
 
 int main(int argc, char** argv) {
-  if (argc < 4) return std::fprintf(stderr, "study_rows FIRST LAST FOLDER [run|diagnose]\n"), 2;
-  return gapscope::study(std::stoull(argv[1]), std::stoull(argv[2]), argv[3], argc > 4 ? argv[4] : "");
+  if (argc < 4) return std::fprintf(stderr, "study_rows FIRST LAST FOLDER [run|diagnose] [KIND]\n"), 2;
+  return gapscope::study(std::stoull(argv[1]), std::stoull(argv[2]), argv[3], argc > 4 ? argv[4] : "",
+                         argc > 5 ? argv[5] : "");
 }
