@@ -7,19 +7,24 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 
 #include "gapscope/base/at_once.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/interrupt.h"
 #include "gapscope/base/move_file.h"
 
 namespace gapscope {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kLook{50};  ///< after which a request to stop is looked for again
 
 std::runtime_error cannot_write(const std::string& name) {
   return std::runtime_error(name + ": cannot be written, expected a writable place with room for it");
@@ -62,8 +67,9 @@ class HandleBuffer : public std::streambuf {
       if (n > 0) done += n;
       if (n >= 0 || errno == EINTR) continue;
       if (errno != EAGAIN) break;
+      if (stop_requested()) break;
       pollfd reader{handle_, POLLOUT, 0};  // a pipe that does not block, and is full
-      poll(&reader, 1, -1);
+      poll(&reader, 1, static_cast<int>(kLook.count()));
     }
     return done;
   }
@@ -81,7 +87,9 @@ void write_handle(int handle, const std::string& name, const std::function<void(
   HandleBuffer buffer(handle);
   std::ostream out(&buffer);
   write(out);
-  if (!out) throw cannot_write(name);
+  if (out) return;
+  stop_point();
+  throw cannot_write(name);
 }
 
 /// Of what the process has open anyway, under another name; below 0: the path is none.
@@ -98,9 +106,19 @@ int open_handle(std::string_view path) {
   return -1;
 }
 
+/// Waits for a pipe's reader, as whoever writes to one does, but not beyond a request to stop.
+int open_special(const std::string& path) {
+  for (;;) {
+    const int handle = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    if (handle >= 0 || errno != ENXIO) return handle;
+    stop_point();
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
 /// A pipe or a device; a file that took its place meanwhile stays as it is.
 void write_special(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  const int handle = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  const int handle = open_special(path);
   struct stat s {};
   if (handle >= 0 && fstat(handle, &s) == 0 && S_ISREG(s.st_mode)) {
     close(handle);

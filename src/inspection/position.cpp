@@ -166,8 +166,11 @@ Finding check_hold(const Material& m, RecordingFacts&) {
   if (rows.filling == signals::Filling::kNone)
     return {kRule, Severity::kFine, "x1 is read anew for every row", ""};
   if (!rows.are_filled())
-    return {kRule, Severity::kNote, "cannot be told: x1 changes too seldom",
-            "a faster or longer motion would show whether x1 is read anew for every row"};
+    return {kRule, Severity::kNote,
+            m.recording.quantum > 0.0
+                ? "whether x1 is read anew for every row cannot be told"
+                : "whether x1 is read anew for every row cannot be told: it is in no whole counts",
+            "record the raw counts, at the rate at which they are read, in a faster or longer motion"};
   const double rate = 1.0 / (recording::mean_step(m.rows) * rows.every);
   const bool held = rows.filling == signals::Filling::kHeld;
   const std::string found =

@@ -13,12 +13,13 @@ namespace {
 /// once in a million times.
 constexpr std::size_t kFewestDistances = 20;
 constexpr double kNearlyAll = 0.95;            ///< of them: a lost row puts one of them off
+constexpr double kAsByChance = 0.65;           ///< of them: half of any distances are even
 constexpr std::size_t kLongestFilling = 1000;  ///< rows; longer ones are rests
 constexpr double kFastQuanta = 3.0;            ///< a row at which no row of a smooth motion stands still
 constexpr std::size_t kFastSteps = 8;          ///< over which the motion is fast
 constexpr std::size_t kFewestFastSteps = 96;
-constexpr double kMostHeld =
-    1.4;  ///< rows a reading, in the mean of fast motion, that noise and lost ones make
+/// Rows a reading in the mean of fast motion that noise makes, and that noise and lost rows make.
+constexpr double kMostFresh = 1.2, kMostHeld = 1.4;
 
 /// What is none of rounding to digits: of x, and of its second difference in quanta.
 constexpr double kDigits = 2e-7;  ///< of the travel
@@ -69,17 +70,26 @@ std::vector<std::size_t> telling_distances(const std::vector<News>& news, double
   return telling;
 }
 
-/// The largest number that nearly all distances are multiples of; 0: too few tell.
-std::size_t common_distance(const std::vector<std::size_t>& distances) {
-  if (distances.size() < kFewestDistances) return 0;
-  const double enough = kNearlyAll * static_cast<double>(distances.size());
+/// What distances between news say of how many rows come to a reading.
+struct Common {
+  double rows = 0.0;  ///< the largest number that nearly all are multiples of; 0: none, or too few tell
+  bool any = false;   ///< enough tell, and no number has more multiples among them than chance leaves
+};
+
+Common common_distance(const std::vector<std::size_t>& distances) {
+  Common common;
+  if (distances.size() < kFewestDistances) return common;
+  const double all = static_cast<double>(distances.size());
+  common.any = true;
   for (std::size_t n = std::min(kLongestFilling, *std::max_element(distances.begin(), distances.end()));
        n > 1; --n) {
     const auto multiples =
         std::count_if(distances.begin(), distances.end(), [n](auto d) { return d % n == 0; });
-    if (static_cast<double>(multiples) >= enough) return n;
+    const double share = static_cast<double>(multiples) / all;
+    if (share >= kNearlyAll) return {static_cast<double>(n), false};
+    common.any = common.any && share < kAsByChance;
   }
-  return 1;
+  return common;
 }
 
 /// Mean distance of steps in fast motion, in which rows that are read anew hardly ever stand still; 1 where
@@ -102,13 +112,15 @@ double rows_of_fast_motion(std::span<const double> x, const std::vector<News>& s
 FreshRows fresh_rows(std::span<const double> x, double quantum) {
   if (x.size() < 3) return {};
   const std::vector<News> steps = steps_in(x), bends = bends_in(x, quantum);
-  const std::size_t held = common_distance(telling_distances(steps, quantum));
-  if (held > 1) return {Filling::kHeld, static_cast<double>(held)};
-  if (const double rows = rows_of_fast_motion(x, steps, quantum); rows > kMostHeld)
-    return {Filling::kHeld, rows};
-  const std::size_t bent = common_distance(telling_distances(bends, quantum));
-  if (bent > 1) return {Filling::kInterpolated, static_cast<double>(bent)};
-  return {held == 0 ? Filling::kCannotBeTold : Filling::kNone, 1.0};
+  const Common held = common_distance(telling_distances(steps, quantum));
+  if (held.rows > 0.0) return {Filling::kHeld, held.rows};
+  const double rows = rows_of_fast_motion(x, steps, quantum);
+  if (rows > kMostHeld) return {Filling::kHeld, rows};
+  const Common bent = common_distance(telling_distances(bends, quantum));
+  if (bent.rows > 0.0) return {Filling::kInterpolated, bent.rows};
+  // What is off the counts of an encoder was computed, and by what is not seen here.
+  const bool read = quantum > 0.0 && held.any && bent.any && rows < kMostFresh;
+  return {read ? Filling::kNone : Filling::kCannotBeTold, 1.0};
 }
 
 }  // namespace gapscope::internal::signals

@@ -53,5 +53,14 @@ TEST(Pipes, AreRefusedAtOnceWhateverNamesThem) {
   EXPECT_FALSE(std::filesystem::exists(at("n")));
 }
 
+TEST(Pipes, ThatNobodyReadsAreGivenUpAtTheFirstSignal) {
+  Workplace place;
+  place.file("drive.csv",
+             testing::text_of(std::filesystem::path(GAPSCOPE_SOURCE_DIR) / "configs/03_recording.csv"));
+  ASSERT_EQ(mkfifo((place.folder() / "out").string().c_str(), 0600), 0);
+  const Outcome o = place.run("check drive.csv -o out", "timeout --preserve-status -s TERM -k 20 1");
+  EXPECT_EQ(o.status, 130) << o.err;
+}
+
 }  // namespace
 }  // namespace gapscope

@@ -86,6 +86,27 @@ TEST(FreshRows, WithALostRowNowAndThenAreHeldAllTheSame) {
   EXPECT_EQ(fresh_rows(x, 1e-6).every, 4.0);
 }
 
+/// A tenth of held rows is lost, or the clock slower by no whole number: no number has nearly all distances,
+/// none as few as chance. Where more rows are lost than x1 has steps nothing is left of it.
+TEST(FreshRows, ThatAreHeldNowAndThenOrLostAreNotToldToBeFresh) {
+  for (const Encoder& e : kEncoders) {
+    if (e.quantum >= 5e-3) continue;
+    const std::vector<double> x = motion(e);
+    std::vector<double> mostly = held(x, 2), slower;
+    for (std::size_t i = mostly.size() - 5; i > 10; i -= 10)
+      mostly.erase(mostly.begin() + static_cast<std::ptrdiff_t>(i));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      slower.push_back(x[static_cast<std::size_t>(0.73 * static_cast<double>(i))]);
+    EXPECT_NE(fresh_rows(mostly, e.quantum).filling, Filling::kNone) << e.name;
+    if (e.noise > 0.0 || e.quantum > 1e-4) continue;  // too coarse for the slower clock to show
+    EXPECT_NE(fresh_rows(slower, e.quantum).filling, Filling::kNone) << e.name;
+  }
+}
+
+TEST(FreshRows, OffTheCountsOfAnyEncoderCannotBeTold) {
+  EXPECT_EQ(fresh_rows(motion(kEncoders[4]), 0.0).filling, Filling::kCannotBeTold);
+}
+
 TEST(FreshRows, OfASteadySpeedCannotBeTold) {
   std::vector<double> ramp;
   for (int i = 0; i < 4000; ++i) ramp.push_back(1e-3 * std::floor(0.25 * i));  // a count in every fourth row
