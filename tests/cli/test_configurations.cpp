@@ -144,7 +144,7 @@ TEST(Configurations, ADriveWithDetentsIsSaidToLackThemAndNothingElse) {
   EXPECT_THAT(outcome.out,
               ::testing::HasSubstr(
                   "\ncause       Established: cogging torque.\nhelps       Cogging torque brings the missing "
-                  "torque down from 5.47 to 0.63"));
+                  "torque down from 5.46 to 0.63"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr(
                                "effect      cogging_torque  at 24 cycles per turn of x1; amplitude 8.000"));
   EXPECT_THAT(outcome.out, ::testing::HasSubstr("eriodic in the motor angle with 24 cycles per turn"));
