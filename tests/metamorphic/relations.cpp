@@ -116,11 +116,7 @@ const std::vector<Relation> kRelations = {
     {"position + 5 turns", [](D& d) { shift_position(d, 10.0 * kPi); }, {"ABC", equal()}, {"W", equal()}},
     {"position + 1e4 rad", [](D& d) { shift_position(d, 1e4); }, {"ABC", equal()}, {"W", kWithin}},
     // sign
-    {"input and position negated",
-     turn_round,
-     {"ABC", equal()},
-     {"W", equal()},
-     {"BC", equal(1e-6)}},
+    {"input and position negated", turn_round, {"ABC", equal()}, {"W", equal()}, {"BC", equal(1e-6)}},
     {"input alone negated", [](D& d) { write_inputs(d, -1.0); }, {"AB", kTold}, {"B", kTold}},
     // scale
     {"a tenth of the speed",
