@@ -27,8 +27,8 @@ constexpr double kBeyondChance = 2.5;  ///< standard errors
 /// by the intervals alone.
 constexpr double kLeastToldRows = 0.1;
 /// Spread of when u may act within its row: from at its beginning to a line between rows, which is half a row
-/// early; every second row is a quarter early. Half and double of it change the intervals of
-/// `study_reference` by less than a third.
+/// early; every second row is a quarter early. It matters where the recordings leave the timing open by more:
+/// there the share of it in an interval goes with it. Set by these causes, not by counting.
 constexpr double kWithinRow = 0.25;
 
 std::string number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.6g}", v); }

@@ -10,7 +10,7 @@ constexpr int kWindows = 24;  ///< the recordings are cut into about so many, fo
 constexpr int kPlaces = 55;   ///< of the counts under the motion that are tried, on a lattice with
 constexpr int kLattice = 34;  ///< this generator: both are Fibonacci numbers
 constexpr std::size_t kMostLags = 2000;
-constexpr double kTriedDelay = 0.1;  ///< for a derivative; half and double of it give the same [rows]
+constexpr double kTriedDelay = 0.1;  ///< for a derivative: small beside a row, large beside rounding [rows]
 
 /// One recording's part: its residuals and Jacobian, and where its columns go.
 struct Part {

@@ -11,9 +11,9 @@ namespace gapscope::internal::signals {
 namespace {
 
 constexpr double kSquares = 70.0;  ///< Σ binomial(4, i)²
-/// Of the differences that leave the noise about a motion: what a motion does between samples is left by the
-/// eighth ones a twentieth as much as by the fourth, and whole counts fall on so many values that their
-/// median is no step.
+/// Of the differences that leave the noise about a motion: of one at a sixth of the sampling rate the eighth
+/// ones leave a sixteenth of what the fourth do, of slower ones less, and whole counts fall on so many values
+/// that their median is no step.
 constexpr std::size_t kPoints = 9;
 
 /// c_k ∝ 1/Π (t_k − t_j) with Σ c_k² = 1: of Σ c_k y_k a polynomial of the seventh degree drops out, white

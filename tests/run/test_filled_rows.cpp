@@ -74,15 +74,15 @@ TEST(FilledRows, AreADoubtToADiagnosisToo) {
   EXPECT_TRUE(!told || told->trust != AnswerTrust::kGood);
 }
 
-TEST(InputTiming, OfEverySecondRowIsADoubtToADiagnosis) {
+TEST(InputTiming, OfEverySecondRowLeavesADiagnosisNoGoodNumberThatMisses) {
   const Drive drive(every_second(rows_of_rig()));
   const DiagnosisOutcome out = run_diagnosis(drive.configuration(), one_candidate());
   const Diagnosis& d = out.result.diagnosis;
   const auto told = answer_of_diagnosis(d, out.result.coordinates);
   ASSERT_TRUE(told) << d.sentence;
   if (told->trust != AnswerTrust::kGood) return;
-  EXPECT_LE(told->ci95.low, 0.0188) << told->sentence;
-  EXPECT_GE(told->ci95.high, 0.0188) << told->sentence;
+  EXPECT_LE(told->ci95.low, 0.019) << told->sentence;
+  EXPECT_GE(told->ci95.high, 0.019) << told->sentence;
 }
 
 }  // namespace
