@@ -23,7 +23,7 @@ bool leaves_little(const Diagnosis& d) {
   if (!d.model_gap || d.stopped || internal::diagnosis::divides_one_body(d)) return false;
   if (d.mismatch.measure.starts_with("prediction")) return false;
   const double half_width = 0.5 * (d.model_gap->ci95.high - d.model_gap->ci95.low);
-  return d.mismatch.after < std::max(kRule.part * kRule.part * d.model_gap->value, half_width);
+  return d.mismatch.after < std::max(kRule.little_of_gap * d.model_gap->value, half_width);
 }
 
 AnswerTrust trust_in(const Diagnosis& d) {

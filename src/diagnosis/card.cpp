@@ -35,6 +35,7 @@ using internal::diagnosis::gap_not_estimated;
 using internal::diagnosis::helps_line;
 using internal::diagnosis::kRule;
 using internal::diagnosis::kSwapStep;
+using internal::diagnosis::kTelling;
 using internal::diagnosis::kToldByDiagnose;
 using internal::diagnosis::left_open;
 using internal::diagnosis::mismatch_size;
@@ -190,7 +191,7 @@ std::string for_short_motions(const Diagnosis& d, Coordinates coordinates) {
     return fmt::format(", for short motions alone and never whole recordings (over one it {}, without {} {})",
                        off, d.added.size() > 1 ? "what was added" : "the addition", motion(w.before));
   const double drift = w.after / w.travel;
-  if (drift <= kRule.part) return "";
+  if (drift <= kTelling.whole_run_drift) return "";
   return ", for short motions alone (simulated over a whole recording it " +
          (std::isfinite(drift) ? fmt::format("drifts by {:.0f} % of the travel)", 100.0 * drift)
                                : "runs away)");

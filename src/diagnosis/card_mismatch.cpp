@@ -136,7 +136,7 @@ std::string whole_run_words(const CardFacts& f) {
   const bool stays = std::isfinite(w.before), stays_after = std::isfinite(w.after);
   const auto position = [&](double size) { return SharedUnit(size, f.coordinates.position_unit())(size); };
   const double drift = std::isfinite(w.before) ? w.before : w.after;
-  const bool alike = drift > kRule.part * w.travel;  // in one unit
+  const bool alike = drift > kTelling.whole_run_drift * w.travel;  // in one unit
   const std::string of = " from the held-out motion, whose travel is " +
                          SharedUnit(alike ? drift : w.travel, f.coordinates.position_unit())(w.travel);
   std::string text = " Simulated freely from the first sample on, the model " +

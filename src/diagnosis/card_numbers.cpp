@@ -115,7 +115,9 @@ struct Change {
 /// Those that clearly move, torques of effects before them: what each of these does is seen first in a drive.
 /// Then the rest, both as far as they have moved.
 void put_in_order(std::vector<Change>& all) {
-  const auto place = [](const Change& c) { return !(c.moved > kRule.part) ? 2 : c.torque ? 0 : 1; };
+  const auto place = [](const Change& c) {
+    return !(c.moved > kTelling.clear_change) ? 2 : c.torque ? 0 : 1;
+  };
   std::ranges::stable_sort(all, [&](const Change& a, const Change& b) {
     return std::pair(place(a), -a.moved) < std::pair(place(b), -b.moved);
   });
@@ -126,7 +128,7 @@ void put_in_order(std::vector<Change>& all) {
 std::string in_part(const std::vector<Change>& changes, std::size_t most) {
   std::vector<std::string> all, rest;
   for (std::size_t i = 0; i < changes.size(); ++i)
-    if (i < most || changes[i].moved > kRule.part)
+    if (i < most || changes[i].moved > kTelling.clear_change)
       all.push_back(changes[i].name + " " + changes[i].words);
     else
       rest.push_back(changes[i].name);
@@ -179,7 +181,7 @@ const RefittedNumber* refitted_number(const Diagnosis& d, const char* key) {
 /// Whether a number changes by far more than its interval is wide.
 bool clearly_changes(const Interval& factor) {
   const double half = 0.5 * (factor.high - factor.low), centre = 0.5 * (factor.high + factor.low);
-  return half < kRule.part * std::abs(centre - 1.0);
+  return half < kTelling.narrow * std::abs(centre - 1.0);
 }
 
 /// " Inertia and damping are both 1.136 times those of the configuration, which ... a torque constant ...

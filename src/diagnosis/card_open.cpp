@@ -157,7 +157,7 @@ std::string step_to_establish(const CardFacts& f, const Card& card) {
       input_is_made(*f.diagnosis)
           ? "Record the motor's input as well (duty, current or torque), and diagnose from that."
           : "Record the drive in another motion (other speeds, other loads) and diagnose that.";
-  if (!(card.percent < 100.0 * kRule.part * kRule.part) || f.tolerance.stated()) return step;
+  if (!(card.percent < kTelling.little_torque_percent) || f.tolerance.stated()) return step;
   return fmt::format(
       "None, if {} of the {} is little enough (`tolerance: {{torque_percent: 1}}` judges it). Else r{}",
       percent_text(card.percent), f.coordinates.torque_word(), step.substr(1));
@@ -192,7 +192,7 @@ std::string step_onwards(const Diagnosis& d) {
 bool drifts_farther(const Diagnosis& d) {
   if (d.added.empty() || !d.whole_run || d.closed_loop || !std::isfinite(d.whole_run->before)) return false;
   const WholeRun& w = *d.whole_run;
-  const double least = std::sqrt(kRule.far);  // about three, midway between alike and beyond doubt
+  const double least = kTelling.clearly_more;
   return !(w.after < least * w.before || w.after < kRule.far * d.mismatch.floor);
 }
 

@@ -56,8 +56,9 @@ std::string the_gap_is() { return std::string("The backlash gap 2β") + kWhichGa
 
 std::string left_open(const Answer& gap) {
   const double share = 0.5 * (gap.ci95.high - gap.ci95.low) / gap.gap;
-  return share > kRule.part ? fmt::format(" (these recordings leave it open by {:.0f} %)", 100.0 * share)
-                            : "";
+  return share > kTelling.open_gap
+             ? fmt::format(" (these recordings leave it open by {:.0f} %)", 100.0 * share)
+             : "";
 }
 
 std::string percent_text(double percent) { return fmt::format("{} %", SharedUnit(1.0, "").number(percent)); }

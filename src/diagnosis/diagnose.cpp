@@ -153,7 +153,8 @@ bool asked_too_little(const Study& study, const Findings& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const ScoredModel& best = found.candidates.front();
   if (at_floor(best)) return false;
-  if (found.decision.accepted && shrink_of(found.before.median_free, best.median_free) > 1.0 - kRule.part)
+  if (found.decision.accepted &&
+      shrink_of(found.before.median_free, best.median_free) > 1.0 - kRule.all_of_cause)
     return false;
   return least_left(found) < kExplained;
 }

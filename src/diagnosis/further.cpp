@@ -235,7 +235,7 @@ bool borne_out(const ScoredModel& nominal, const Additions& a) {
   // Away from the floor each of the two leaves less than a part, unless the prediction error comes to its
   // floor.
   const bool predicted = a.after.median_innovation < kRule.floor_ratio;
-  const double left = predicted ? kRule.part : kRule.part * kRule.part;
+  const double left = predicted ? kRule.all_of_cause : kRule.all_of_free_run;
   return a.steps.front().decision.margin >= kRule.clear &&
          shrink_of(nominal.median_free, a.after.median_free) > 1.0 - left;
 }

@@ -44,7 +44,7 @@ std::string phase_words(const MismatchPlace& place, Coordinates coordinates) {
   if (!place.phase) return "";
   const auto phase = static_cast<std::size_t>(*place.phase);
   const MapShare& m = place.mode[phase];
-  if (!denser_than_chance(m) || !(m.share - m.expected > kRule.part)) return "";
+  if (!denser_than_chance(m) || !(m.share - m.expected > kTelling.beyond_chance)) return "";
   return kWhere[phase] + share_words(m, coordinates);
 }
 
@@ -135,7 +135,7 @@ std::vector<ResidualPattern> followed_patterns(const std::vector<PatternStrength
 
 std::string one_way_words(const std::vector<MapShare>& direction) {
   for (const MapShare& way : direction) {
-    if (way.expected >= kRule.part) continue;  // of the time in motion: nothing to compare with
+    if (way.expected >= kTelling.hardly_any) continue;  // of the time in motion: nothing to compare with
     return way.expected > 0.0
                ? fmt::format("hardly any {} motion was recorded", way.bin)
                : fmt::format("only {} motion was recorded", way.bin == "forward" ? "backward" : "forward");

@@ -158,7 +158,7 @@ bool is_series_of(const LawSearch& law, const ModelEffect& effect) {
   if (variable_of(*series.entry) != "position" || variable_of(*effect.entry) != "position") return false;
   const double cycles = 2.0 * kPi / series.parameters.front().value, of_effect = cycles_of(effect);
   const double whole = std::round(cycles / of_effect);
-  return whole >= 1.0 && std::abs(cycles - whole * of_effect) < kRule.part * of_effect;
+  return whole >= 1.0 && std::abs(cycles - whole * of_effect) < kRule.same_period * of_effect;
 }
 
 std::optional<LawSearch> search_last_resort(const Study& study, const ScoredModel& model, bool drive_known) {

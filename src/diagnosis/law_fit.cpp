@@ -123,7 +123,7 @@ ScoredModel LawFit::best() const {
 /// drive's numbers, and one round ends before they have settled.
 void LawFit::settle(FittedModel& here) const {
   for (std::size_t round = 0; round < study_->effort.leaders && !work_->is_done(); ++round) {
-    const double worth = (1.0 - kRule.part) * here.mean_cost;
+    const double worth = (1.0 - kRule.worth_having) * here.mean_cost;
     keep_lower(here, fit_from(*study_, here, {}));
     if (here.mean_cost < kExplained || !(here.mean_cost < worth)) return;
   }

@@ -143,7 +143,7 @@ Interval law_shrink_interval(const Study& study, const ScoredModel& before, cons
     if (b[i] > kRule.floor_ratio * kRule.floor_ratio) shares.push_back(std::sqrt(a[i] / b[i]));
   const double remaining = std::max(0.0, 1.0 - shrink);
   const double most = std::max(remaining, std::sqrt(mean(a) / mean(b)));
-  const double least = shares.empty() ? remaining : std::min(remaining, quantile(shares, kRule.part));
+  const double least = shares.empty() ? remaining : std::min(remaining, quantile(shares, kRule.best_windows));
   return shrink_interval(size, least, most);
 }
 
@@ -228,10 +228,10 @@ bool is_told_in_torque(const Diagnosis& d) {
   const bool noise_hides = m.after < kRule.floor_ratio * m.floor && 2.0 * m.after_torque > m.before_torque;
   if (tellable && noise_hides) return false;
   if (!d.budget.uncounted.empty())
-    return tellable && m.after_torque <= (motion_left + kRule.part) * m.before_torque;
+    return tellable && m.after_torque <= (motion_left + kRule.torque_behind_motion) * m.before_torque;
   // An elasticity moves x1, and takes no torque.
   const double fall = 1.0 - m.after_torque / m.before_torque;
-  return !(tellable && fall < kRule.part * (1.0 - motion_left));
+  return !(tellable && fall < kRule.torque_behind_motion * (1.0 - motion_left));
 }
 
 }  // namespace gapscope

@@ -58,14 +58,22 @@ inline constexpr LineSearch kLineSearch;
 /// When a thing is worth a word, beside the rule by which effects are named. The two of other recordings were
 /// set on the seeds 860001 to 860140 of study_diagnosis (known).
 struct Telling {
-  double strength = 0.25;    ///< share of the correcting torque that a pattern explains to be named
-  double dense = 1.5;        ///< times what an error without a place would have in a phase of the contact
-  double most_left = 0.25;   ///< of the motion: 0.02 on drives, 0.5 and more where u moves nothing
-  double drift = 1.6;        ///< growth of the difference from one period to two that is a drift
-  double rival_share = 0.5;  ///< of what the best gains: else no experiment is worth its time
-  double separated = 1.0;    ///< σ by which an experiment tells two models apart
-  double coarser = 1.5;      ///< times the sheet's quantum: another encoder than it says
-  double on_grid = 0.1;      ///< mean distance from whole quanta of samples that are counted in it [quanta]
+  double beyond_chance = 0.1;    ///< of the error, that a phase has more than its share of time
+  double hardly_any = 0.1;       ///< of the time in motion: a direction that has less is hardly recorded
+  double whole_run_drift = 0.1;  ///< of the travel, that a whole run drifts off
+  double clear_change = 0.1;     ///< of a number, that it moves
+  double narrow = 0.1;           ///< half the interval of a change, over the change
+  double open_gap = 0.1;         ///< half the interval of a gap, over the gap: said to be left open
+  double little_torque_percent = 1.0;  ///< of the input: one may stop there [%]
+  double clearly_more = 3.16;  ///< ratio of sizes, midway between alike and beyond doubt (DecisionRule::far)
+  double strength = 0.25;      ///< share of the correcting torque that a pattern explains to be named
+  double dense = 1.5;          ///< times what an error without a place would have in a phase of the contact
+  double most_left = 0.25;     ///< of the motion: 0.02 on drives, 0.5 and more where u moves nothing
+  double drift = 1.6;          ///< growth of the difference from one period to two that is a drift
+  double rival_share = 0.5;    ///< of what the best gains: else no experiment is worth its time
+  double separated = 1.0;      ///< σ by which an experiment tells two models apart
+  double coarser = 1.5;        ///< times the sheet's quantum: another encoder than it says
+  double on_grid = 0.1;        ///< mean distance from whole quanta of samples that are counted in it [quanta]
   double other_recording = 4.0;  ///< times that another recording shows more or less of what is missing
   double floor_spread = 0.5;     ///< by which recordings of a drive differ near the floor [floor]
   int fewest_in_bin = 20;        ///< samples of a correcting torque whose mean is drawn

@@ -109,7 +109,7 @@ reference::RefinedFit Race::leader() const {
 reference::RefinedFit Race::follow(const reference::AdjustedFit& from, bool thorough) const {
   const reference::RefinedFit quick = fit_.refine(from, effort_.quick);
   if (!quick.usable()) return {from, from.residual_mean_square, false, 0.0};
-  if (!thorough || !(quick.mean_cost < (1.0 - kRule.part) * nominal_.mean_cost)) return quick;
+  if (!thorough || !(quick.mean_cost < (1.0 - kRule.worth_having) * nominal_.mean_cost)) return quick;
   const reference::RefinedFit found = fit_.refine(quick, {});
   return found.mean_cost < quick.mean_cost ? found : quick;
 }

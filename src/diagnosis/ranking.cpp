@@ -20,7 +20,7 @@ bool names(std::span<const char* const> list, std::string_view name) {
 
 /// Whether an effect leaves more of the free runs' error than what is all of the cause does.
 bool leaves_a_part(const ScoredModel& after, const ScoredModel& before, const DecisionRule& rule) {
-  return !at_floor(after) && after.median_free - 1.0 > rule.part * (before.median_free - 1.0);
+  return !at_floor(after) && after.median_free - 1.0 > rule.all_of_cause * (before.median_free - 1.0);
 }
 
 /// Of the windows above the floor; NaN where none is.
@@ -73,14 +73,14 @@ bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_bad
   const auto windows = repeats_badly ? &Windows::innovation : &Windows::free;
   const std::vector<double>&b = before.windows.*windows, &a = after.windows.*windows;
   if (b.empty() || a.size() != b.size()) return false;
-  if (!(after.fitted.mean_cost < (1.0 - kRule.part) * before.fitted.mean_cost)) return false;
+  if (!(after.fitted.mean_cost < (1.0 - kRule.worth_having) * before.fitted.mean_cost)) return false;
   const auto& effects = after.fitted.model.effects;
   if (!effects.empty() && is_absent(effects.back())) return false;
   const auto squares = [](const std::vector<double>& w) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(w.data(), std::ssize(w)));
   };
   const torque_view::Evidence evidence = torque_view::Blocks(b.size(), {}).compare(squares(b), squares(a));
-  return evidence.share >= kRule.part && evidence.interval.low > 0.0 &&
+  return evidence.share >= kRule.evident && evidence.interval.low > 0.0 &&
          share_of_windows_better(before, after) >= kRule.least_windows;
 }
 
@@ -115,7 +115,7 @@ bool fits_better(const ScoredModel& rival, const ScoredModel& best, const Scored
   if (at_floor(best) || contained_effect(*rival.entry) == best.entry) return false;
   if (reads_counts(*rival.entry) || reads_counts(*best.entry)) return false;
   return before.score - rival.score >= rule.indistinct &&
-         rival.fitted.mean_cost < (1.0 - rule.part) * best.fitted.mean_cost;
+         rival.fitted.mean_cost < (1.0 - rule.worth_having) * best.fitted.mean_cost;
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ bool is_line_of(const view::Term& term, const ReferenceModel& model) {
   const double ratio = term.shape / effect->parameters[static_cast<std::size_t>(term.law->shape_at)].value;
   const double times = std::max(ratio, 1.0 / ratio);
   const double harmonic = std::clamp(std::round(times), 1.0, 3.0);  // the cogging's law has three
-  return std::abs(times - harmonic) < kRule.part * harmonic;
+  return std::abs(times - harmonic) < kRule.same_period * harmonic;
 }
 
 BudgetRung rung_of(const view::Budget& budget, std::size_t i, const Diagnosis& d) {
@@ -108,7 +108,7 @@ CountedModel counted_of(const view::Budget& budget, const std::vector<std::strin
 /// this drive (a delay and friction of a quick motion are no slow torques, nor is friction that holds at each
 /// reversal), and what it leaves is not what the model lacks.
 bool is_refuted_by_motion(const Diagnosis& d) {
-  const double least = std::sqrt(kRule.far);  // about three, midway between alike and beyond doubt
+  const double least = kTelling.clearly_more;
   const double left = d.budget.with_effects, floor = d.budget.floor();
   return d.mismatch.remains < kRule.floor_ratio &&
          (left > least * d.mismatch.after_torque || (floor > 0.0 && left > least * floor));

@@ -156,7 +156,7 @@ bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced) {
   return refitted.entry->parameters[0].absent == 0.0 &&
          std::all_of(sizes.begin(), sizes.end(), [&](std::size_t i) {
            return std::abs(refitted.parameters[i].value) <=
-                  kRule.part * std::abs(balanced.parameters[i].value);
+                  kRule.faded * std::abs(balanced.parameters[i].value);
          });
 }
 

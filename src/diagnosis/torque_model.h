@@ -26,7 +26,8 @@ ReferenceModel with_terms(ReferenceModel model, const torque_view::Budget& budge
 /// Whether the simulator's refit has taken the effect away again.
 bool has_vanished(const ModelEffect& effect);
 
-/// Whether it has left no more than `part` of any size of it: what the balance took for it was none of it.
+/// Whether it has left no more than a tenth (DecisionRule::faded) of any size of it: what the balance took
+/// for it was none of it.
 /// @param balanced  the same effect as the balance had it
 bool has_faded(const ModelEffect& refitted, const ModelEffect& balanced);
 

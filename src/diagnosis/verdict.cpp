@@ -123,7 +123,7 @@ double held_out_travel(const Diagnosis& d) {
 /// Whether somebody has given a period, which is then known of the drive.
 bool was_given(double periods_per_turn, const Diagnosis& d) {
   return std::ranges::any_of(d.periodic, [&](const PeriodicTorque& p) {
-    return p.given && std::abs(p.periods_per_turn - periods_per_turn) < kRule.part * periods_per_turn;
+    return p.given && std::abs(p.periods_per_turn - periods_per_turn) < kRule.same_period * periods_per_turn;
   });
 }
 

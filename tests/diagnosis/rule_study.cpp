@@ -138,7 +138,8 @@ int judge_rule(int argc, char** argv) {
   vary("indistinct", &DecisionRule::indistinct, false);
   vary("least_way", &DecisionRule::least_way, false, {0.0, 0.5, 2.0});
   vary("asked_for", &DecisionRule::asked_for, true);
-  vary("part", &DecisionRule::part, false);
+  vary("worth_having", &DecisionRule::worth_having, false);
+  vary("all_of_cause", &DecisionRule::all_of_cause, false);
   return 0;
 }
 

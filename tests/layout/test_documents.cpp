@@ -89,27 +89,4 @@ TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
   }
 }
 
-/// Every chosen number of the diagnosis is a field, in one of two files, and told with its meaning.
-TEST(Documents, KeepTheNumbersOfTheDiagnosisFewAndTogether) {
-  const fs::path folder = kProject / "src/diagnosis";
-  const std::regex field(R"rx(\n  (?:double|int|std::size_t|reference::RefineEffort) \w+\s*=)rx");
-  std::size_t fields = 0;
-  for (const char* file : {"rule.h", "numbers.h"}) {
-    const std::string text = text_of(folder / file);
-    fields += matches(text, field).size();
-  }
-  EXPECT_GE(fields, 10u);
-  EXPECT_LE(fields, 45u);
-  const std::regex chosen(R"rx(constexpr (?:double|int|std::size_t) (k\w+)\s*=\s*[\d.]+[;,])rx");
-  const std::set<std::string> resolution = {
-      "kHalvings",       "kMapBins", "kPictureBins", "kPointsInPiece",
-      "kPositionPoints", "kSpeeds",  "kToldEffects", "kToldNumbers"};  // of a search, tables, a picture
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename() == "probability.cpp") continue;  // its weights are learned
-    const std::string text = text_of(entry.path());
-    for (const std::smatch& m : matches(text, chosen))
-      EXPECT_TRUE(resolution.contains(m[1])) << entry.path() << " chooses " << m[1];
-  }
-}
-
 }  // namespace
