@@ -36,13 +36,9 @@ std::string estimate(double value, const Interval& ci95, Coordinates coordinates
                      "[" + with_decimals(1e3 * ci95.low, d) + ", " + with_decimals(1e3 * ci95.high, d) + "]");
 }
 
-/// "19 events", those that are used, or "mean of 9 periods".
+/// "19 events": those that are used.
 std::string evidence(const GapEstimate& g) {
-  int periods = 0;
-  for (const GapEvent& e : g.events)
-    if (e.accepted) periods = std::max(periods, e.periods);
-  return periods > 1 ? fmt::format("mean of {} periods", periods)
-                     : fmt::format("{} events", std::ranges::count_if(g.events, &GapEvent::accepted));
+  return fmt::format("{} events", std::ranges::count_if(g.events, &GapEvent::accepted));
 }
 
 std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {

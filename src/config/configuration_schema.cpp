@@ -233,14 +233,10 @@ Json detector_schema() {
   detector.add("method",
                words_schema({"auto", "impact", "lost_motion", "paper"},
                             "auto: the loop or the impacts, whichever reads; paper: S1 to S6 at a bound"));
-  detector.add("frozen", truth_schema("learn from the first two periods only, as a stream does"));
   Json schema = detector.schema("the model-free estimator");
   const Json bound = {{"allOf", {having("bound"), none_of({having("bound", being("auto"))})}}};
   add_rule(where(having("method", being("paper")), bound), schema);
   add_rule(where(having("method", {{"enum", {"impact", "lost_motion"}}}), none_of({bound})), schema);
-  add_rule(where(having("frozen", being(true)),
-                 none_of({bound, having("method", {{"enum", {"lost_motion", "paper"}}})})),
-           schema);
   return schema;
 }
 

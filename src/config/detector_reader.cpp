@@ -8,8 +8,6 @@ namespace {
 /// `bound: auto`, a number, or {from_model: {input_limit, load_force_bound}}.
 void read_bound(const Value& bound, DetectorConfig& detector) {
   detector.line = bound.line();
-  if (detector.frozen && !(bound.is_text() && bound.text() == "auto"))
-    bound.fail_expecting("auto, as detector.frozen asks what the data alone tell");
   if (bound.is_map()) {
     const Section from(
         Section(bound, {"from_model"}).require("from_model", "{input_limit, load_force_bound}"),
@@ -34,18 +32,14 @@ void require_bound_for_method(const Value& method, const DetectorConfig& detecto
         "is paper without a bound, expected bound: a number [rad/s^2] or {from_model: ...} beside it");
   if (detector.method != DetectorMethod::kAuto && detector.method != DetectorMethod::kPaper && given)
     method.fail(fmt::format("is {} beside a bound, expected paper or bound: auto", method.text()));
-  if (detector.frozen && detector.method != DetectorMethod::kAuto &&
-      detector.method != DetectorMethod::kImpact)
-    method.fail(fmt::format("is {} beside frozen, expected auto or impact", method.text()));
 }
 
 }  // namespace
 
 DetectorConfig read_detector(const Value& value) {
-  const Section section(value, {"method", "bound", "frozen"});
+  const Section section(value, {"method", "bound"});
   DetectorConfig detector;
   detector.line = value.line();
-  if (const auto frozen = section.find("frozen")) detector.frozen = frozen->truth();
   if (const auto bound = section.find("bound")) read_bound(*bound, detector);
   if (const auto method = section.find("method")) {
     detector.method = static_cast<DetectorMethod>(method->word({"auto", "impact", "lost_motion", "paper"}));

@@ -172,7 +172,6 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
     out.quantity("bound", detector.bound ? yaml_number(*detector.bound) : "auto",
                  detector.bound ? "rad/s^2" : "");
   }
-  if (detector.frozen) out.entry("frozen", "true");
   out.close();
 }
 

@@ -133,16 +133,9 @@ Series passages(const ReportView& view, const std::string& label, int direction,
   return s;
 }
 
-/// ", mean of 9 periods": what the passages are of; nothing for single ones.
-std::string of_periods(const ReportView& view) {
-  int periods = 1;
-  for (const GapEvent& e : view.events) periods = std::max(periods, e.periods);
-  return periods > 1 ? ", mean of " + std::to_string(periods) + " periods" : "";
-}
-
 Panel over_time(const ReportView& view) {
   Panel panel;
-  panel.title = is_play(view) ? "Loop by loop" : "Passage by passage" + of_periods(view);
+  panel.title = is_play(view) ? "Loop by loop" : "Passage by passage";
   panel.x = view.time_axis({view.time.front(), view.time.back()});
   panel.y = {is_play(view) ? "play at zero torque" : "estimate of $2β$",
              view.length_unit,
@@ -179,7 +172,7 @@ std::string passages_reading(const ReportView& view) {
   if (!up.empty()) text += " (median " + quantity(median(up), view.length_unit) + ")";
   text += ", " + std::to_string(down.size()) + " falling";
   if (!down.empty()) text += " (median " + quantity(median(down), view.length_unit) + ")";
-  text += "; set aside: " + std::to_string(aside) + of_periods(view);
+  text += "; set aside: " + std::to_string(aside);
   const Interval range = event_range(view);
   const auto beyond = std::count_if(view.events.begin(), view.events.end(), [&](const GapEvent& e) {
     return std::isfinite(e.gap) && (e.gap < range.low || e.gap > range.high);

@@ -124,11 +124,8 @@ std::string bounds_line(const RunResult& run) {
 
 constexpr std::size_t kTablePassages = 24;  ///< all of them are in result.json
 
-/// "used": of a mean, how many periods it is of.
-std::string use_of(const GapEvent& e) {
-  if (!e.accepted) return "no: " + e.remark;
-  return e.periods > 1 ? fmt::format("yes: mean of {} periods", e.periods) : "yes";
-}
+/// "used"
+std::string use_of(const GapEvent& e) { return e.accepted ? "yes" : "no: " + e.remark; }
 
 /// How many of the passages cannot be in the table, as only their impact was seen, and why that is of most.
 std::string without_begin(const std::vector<GapEvent>& all) {

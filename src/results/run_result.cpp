@@ -206,7 +206,6 @@ Json result_schema() {
   describe(event, "t_c_s", "e_x is at rest from here to t1; null where it was not");
   describe(event, "t1_s", "contact is lost; null where only the impact is seen");
   describe(event, "t2_s", "contact is regained");
-  describe(event, "periods", "that the passage is the mean of, told in the middle one; 1: of itself");
   return schema;
 }
 

@@ -46,7 +46,6 @@ void fields(Archive& archive, GapEvent& e) {
   archive("accepted", e.accepted);
   archive("remark", e.remark);
   archive.added("t_c_s", e.t_c);
-  archive.added("periods", e.periods);
 }
 
 /// Its levels are in a file of their own.

@@ -25,7 +25,7 @@ void fields(Archive& archive, LearntFacts& l) {
 namespace {
 
 constexpr const char* kStreamSchema = "gapscope.stream/1";
-constexpr const char* kNotInEvents[] = {"file", "t_c_s", "periods"};
+constexpr const char* kNotInEvents[] = {"file", "t_c_s"};
 constexpr const char* kNotInSummaries[] = {"bound_t1_rad_s2", "paper_bound_rad_s2", "scale", "events",
                                            "bound_map"};
 

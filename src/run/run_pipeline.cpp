@@ -89,7 +89,6 @@ DetectorOptions detector_options(const Configuration& c, const std::vector<Motor
   options.method = c.detector.method;
   options.encoder = c.encoder.side();  // also of a model of one body: the drive may have a gap all the same
   options.locked = c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked;
-  options.frozen = c.detector.frozen;
   if (c.detector.bound) {
     options.bound = *c.detector.bound;
     return options;

@@ -91,20 +91,19 @@ void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
 /// On the six drives of 871001 150 gap sine and 3391001 60 gap trapezoid where it matters to an impact,
 /// errors are 1.1 standard deviations in the mean square; without it 1.5.
 double SignalFacts::sharing(double step) const {
-  const double steps = rounding > 0.0 ? std::sqrt(12.0) * rounding : quantum;
-  if (rounding == 0.0 && noise > kDithers * steps) return 1.0;
-  return std::max(1.0, steps / std::max(step, 1e-300));
+  if (noise > kDithers * quantum) return 1.0;
+  return std::max(1.0, quantum / std::max(step, 1e-300));
 }
 
-SignalFacts read_facts(const MotorTrace& trace, double noise) {
+SignalFacts read_facts(const MotorTrace& trace) {
   SignalFacts facts;
   const Samples y = trace.x1;
   if (y.size() < 200 || !(trace.dt > 0.0)) {
     facts.defect = {"too_short", "recording too short: record at least three periods of a periodic motion"};
     return facts;
   }
-  if (noise <= 0.0) facts.quantum = encoder_quantum(trace);
-  facts.noise = std::max({noise_from_differences(y), rounding_noise(facts.quantum), noise});
+  facts.quantum = encoder_quantum(trace);
+  facts.noise = std::max(noise_from_differences(y), rounding_noise(facts.quantum));
   facts.input_period = exact_period(trace, kFewestRepetitions);
   read_period(trace, without_drift(trace, facts.input_period), facts);
   const auto period = static_cast<std::size_t>(std::lround(facts.input_period / trace.dt));

@@ -12,7 +12,6 @@ namespace gapscope::internal::signals {
 struct SignalFacts {
   double quantum = 0.0;      ///< of the encoder [rad]
   double noise = 0.0;        ///< σ_n, standard deviation of one sample: noise and quantisation [rad]
-  double rounding = 0.0;     ///< error of slow motion that averaging periods leaves [rad]
   double travel = 0.0;       ///< peak to peak, without the drift from period to period [rad]
   double centre = 0.0;       ///< middle of that travel [rad]
   double amplitude = 0.0;    ///< half of it, from the 2 and 98 % quantiles [rad]
@@ -32,9 +31,7 @@ struct SignalFacts {
   double sharing(double step) const;
 };
 
-/// @param noise  of one sample where it is known better than from the samples (a mean of periods) [rad]; the
-///               quantum is then taken to be averaged out.
-SignalFacts read_facts(const MotorTrace& trace, double noise = 0.0);
+SignalFacts read_facts(const MotorTrace& trace);
 
 /// Fewest half periods that make a motion periodic.
 constexpr std::size_t kFewestHalfPeriods = 4;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sliding_mode/bank_run.h"
+#include "sliding_mode/marks/marks.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "sliding_mode/passages.h"
+#include "sliding_mode/marks/marks.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
 
@@ -126,7 +125,7 @@ void FrozenSearch::read_core(std::size_t end) {
                     std::span(run_.errors).subspan(known * m));
   const MotorTrace trace = window();
   const BankMarks marks = marks_of(run_);
-  const TransitionContext context{trace, frozen_.facts, marks};
+  const PassageContext context{trace, frozen_.facts, marks};
   const double half_period = frozen_.facts.half_period / dt_;
   const std::vector<BankEvent> events =
       main_events(all_events(marks, half_period), marks, frozen_.least, half_period);
@@ -145,7 +144,7 @@ void FrozenSearch::read_core(std::size_t end) {
   offset_ += gone;
 }
 
-void FrozenSearch::keep(Transition passage, std::size_t mark) {
+void FrozenSearch::keep(Passage passage, std::size_t mark) {
   ++passages_;
   fresh_.push_back(passage);
   kept_.push_back({std::move(passage), half_periods(), mark});
@@ -154,12 +153,11 @@ void FrozenSearch::keep(Transition passage, std::size_t mark) {
   kept_.pop_front();
 }
 
-std::vector<Transition> FrozenSearch::take() { return std::exchange(fresh_, {}); }
+std::vector<Passage> FrozenSearch::take() { return std::exchange(fresh_, {}); }
 
 ImpactAnalysis FrozenSearch::summary() const {
   ImpactAnalysis a;
   a.facts = frozen_.facts;
-  a.quantum = frozen_.facts.quantum;
   if (!has_learnt()) return a;
   a.facts.half_periods = half_periods() - std::min(half_periods(), half_periods_gone_);
   a.run.bounds = frozen_.bounds, a.run.floor = frozen_.floor, a.run.quiet = frozen_.quiet;
@@ -168,17 +166,9 @@ ImpactAnalysis FrozenSearch::summary() const {
   a.marks = marks_ - marks_gone_;
   a.smallest_visible_gap = frozen_.visible[top_bound(tops_, kMostTops, a.sliding) + 1];
   a.finest_gap = frozen_.visible[a.sliding];
-  a.one_body_gap = [gap = frozen_.one_body] { return gap; };
+  a.one_body_gap = frozen_.one_body;
   for (const KeptPassage& k : kept_) a.passages.push_back(k.passage);
   return a;
-}
-
-ImpactAnalysis analyse_frozen(const MotorTrace& trace) {
-  FrozenSearch search(trace.file, trace.start, trace.dt, trace.quantum,
-                      std::numeric_limits<std::size_t>::max());
-  for (std::size_t i = 0; i < trace.size(); ++i) search.push(trace.u[i], trace.x1[i]);
-  search.finish();
-  return search.summary();
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gapscope/sliding_mode/bound_bank.h"
-#include "sliding_mode/impact_method.h"
+#include "sliding_mode/impact_search.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -34,7 +34,7 @@ struct FrozenFacts {
   std::size_t samples = 0;      ///< that it was learnt from
 };
 
-/// The impact method (S1–S6, impact_method.h) on samples as they come, in memory that does not grow. Facts,
+/// The impact method (S1–S6, impact_search.h) on samples as they come, in memory that does not grow. Facts,
 /// bounds, floors and thresholds are learnt from the first kFewestHalfPeriods half periods; the bank then
 /// runs on, and every quarter of a half period the passages whose impact lies in it are read from a window
 /// around it: two half periods before, half a one after. A passage is thus complete at most three quarters of
@@ -56,14 +56,14 @@ class FrozenSearch {
   std::size_t held() const { return x1_.size(); }  ///< samples in the window
 
   /// Passages read since the last call.
-  std::vector<Transition> take();
+  std::vector<Passage> take();
 
   /// As analyse() would tell it, of the passages that are kept.
   ImpactAnalysis summary() const;
 
  private:
   struct KeptPassage {
-    Transition passage;
+    Passage passage;
     std::size_t half_periods, marks;  ///< before it
   };
 
@@ -71,7 +71,7 @@ class FrozenSearch {
   void learn(const signals::SignalFacts& facts, const MotorTrace& trace);
   void go_on(double u, double x1);
   void read_core(std::size_t end);
-  void keep(Transition passage, std::size_t mark);
+  void keep(Passage passage, std::size_t mark);
   MotorTrace window() const;
   std::size_t half_periods() const { return turns_.count() > 0 ? turns_.count() - 1 : 0; }
 
@@ -94,10 +94,7 @@ class FrozenSearch {
   std::size_t half_periods_gone_ = 0, marks_gone_ = 0;  ///< before the first passage that is kept
   std::vector<std::size_t> tops_;                       ///< of the main events, by bound
   std::deque<KeptPassage> kept_;
-  std::vector<Transition> fresh_;
+  std::vector<Passage> fresh_;
 };
-
-/// The same for a whole recording: what a stream of it would have told.
-ImpactAnalysis analyse_frozen(const MotorTrace& trace);
 
 }  // namespace gapscope::internal::sliding_mode

@@ -45,14 +45,14 @@ double nice_number(double value) {
 }
 
 /// N of step S2: e_x × N fills the travel of x1.
-double scale_of(std::span<const ImpactAnalysis> analyses, const std::vector<ErrorTrace>& traces) {
+double scale_of(std::span<const signals::SignalFacts> facts, const std::vector<ErrorTrace>& traces) {
   double ratio = 0.0;
   for (std::size_t i = 0; i < traces.size(); ++i) {
     const std::span<const double> settled = std::span(traces[i].error).subspan(traces[i].error.size() / 10);
     std::vector<double> sizes(settled.begin(), settled.end());
     for (double& size : sizes) size = std::abs(size);
     const double peak = quantile(std::move(sizes), 0.998);
-    if (peak > 0.0) ratio = std::max(ratio, 0.5 * analyses[i].facts.travel / peak);
+    if (peak > 0.0) ratio = std::max(ratio, 0.5 * facts[i].travel / peak);
   }
   return ratio > 0.0 ? nice_number(ratio) : 1.0;
 }
@@ -78,17 +78,17 @@ double at_rest_since(const ErrorTrace& trace, double start, double dt, const Gap
   return i == reach ? kNaN : start + dt * static_cast<double>(i);
 }
 
-void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+void keep_traces(std::span<const MotorTrace> recordings, std::span<const signals::SignalFacts> facts,
                  double bound, Discretisation discretisation, GapEstimate& estimate) {
   if (!(bound > 0.0)) return;
   for (const MotorTrace& recording : recordings)
     estimate.traces.push_back(trace_of(recording, bound, discretisation));
-  estimate.scale = scale_of(analyses, estimate.traces);
+  estimate.scale = scale_of(facts, estimate.traces);
   for (GapEvent& event : estimate.events)
     for (std::size_t i = 0; i < recordings.size(); ++i)
       if (recordings[i].file == event.file) {
         event.t_c = at_rest_since(estimate.traces[i], recordings[i].start, recordings[i].dt, event,
-                                  analyses[i].facts.half_period);
+                                  facts[i].half_period);
         break;
       }
 }

@@ -5,7 +5,7 @@
 #include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "gapscope/sliding_mode/super_twisting.h"
-#include "sliding_mode/impact_method.h"
+#include "signals/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -16,8 +16,8 @@ double at_rest_since(const ErrorTrace& error, double start, double dt, const Gap
                      double half_period);
 
 /// e_x of one bound for every recording, its scale N, and t_c of each event. Nothing without a bound.
-/// @param analyses  one per recording
-void keep_traces(std::span<const MotorTrace> recordings, std::span<const ImpactAnalysis> analyses,
+/// @param facts  one per recording
+void keep_traces(std::span<const MotorTrace> recordings, std::span<const signals::SignalFacts> facts,
                  double bound, Discretisation discretisation, GapEstimate& estimate);
 
 }  // namespace gapscope::internal::sliding_mode

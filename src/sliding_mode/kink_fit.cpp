@@ -21,40 +21,21 @@ double KinkShape::operator()(double x) const {
   return end + (1.0 + std::exp(-damping * omega * end)) * (x - end);
 }
 
+ShapeWalk::ShapeWalk(const KinkShape& shape, double x, double step) : shape_(shape), x_(x), step_(step) {
+  if (shape.power != 0) return;
+  if (shape.first > 0.0) {
+    turn_ = std::exp(-shape.fading * step);
+    z_ = std::exp(-shape.fading * x);
+    return;
+  }
+  damped_ = shape.omega * std::sqrt(1.0 - shape.damping * shape.damping);
+  end_ = kPi / damped_;
+  after_ = 1.0 + std::exp(-shape.damping * shape.omega * end_);
+  turn_ = std::polar(std::exp(-shape.damping * shape.omega * step), damped_ * step);
+  z_ = std::polar(std::exp(-shape.damping * shape.omega * x), damped_ * x);
+}
+
 namespace {
-
-/// The values of a shape at x, x + 1, … (an elastic stroke turns and fades by the same factor every sample).
-class ShapeWalk {
- public:
-  ShapeWalk(const KinkShape& shape, double x) : shape_(shape), x_(x) {
-    if (shape.power != 0) return;
-    if (shape.first > 0.0) {
-      step_ = std::exp(-shape.fading);
-      z_ = std::exp(-shape.fading * x);
-      return;
-    }
-    damped_ = shape.omega * std::sqrt(1.0 - shape.damping * shape.damping);
-    end_ = kPi / damped_;
-    after_ = 1.0 + std::exp(-shape.damping * shape.omega * end_);
-    step_ = std::polar(std::exp(-shape.damping * shape.omega), damped_);
-    z_ = std::polar(std::exp(-shape.damping * shape.omega * x), damped_ * x);
-  }
-  double next() {
-    const double value = shape_.power != 0    ? shape_(x_)
-                         : shape_.first > 0.0 ? x_ + (1.0 - shape_.first) * (z_.real() - 1.0) / shape_.fading
-                         : x_ < end_          ? x_ - z_.imag() / damped_
-                                              : end_ + after_ * (x_ - end_);
-    z_ = {z_.real() * step_.real() - z_.imag() * step_.imag(),
-          z_.real() * step_.imag() + z_.imag() * step_.real()};
-    x_ += 1.0;
-    return value;
-  }
-
- private:
-  const KinkShape& shape_;
-  double x_, damped_ = 1.0, end_ = 0.0, after_ = 1.0;
-  std::complex<double> step_, z_;
-};
 
 /// Of the values of a shape: their squares, and their products with the residual and with each column.
 struct KinkSums {

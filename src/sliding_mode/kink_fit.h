@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -22,6 +23,27 @@ struct KinkShape {
   double fading = 0.0;   ///< λ [1/sample]
 
   double operator()(double x) const;
+};
+
+/// The values of a shape at x, x + step, … (an elastic stroke turns and fades by the same factor every step).
+class ShapeWalk {
+ public:
+  ShapeWalk(const KinkShape& shape, double x, double step = 1.0);
+  double next() {
+    const double value = shape_.power != 0    ? shape_(x_)
+                         : shape_.first > 0.0 ? x_ + (1.0 - shape_.first) * (z_.real() - 1.0) / shape_.fading
+                         : x_ < end_          ? x_ - z_.imag() / damped_
+                                              : end_ + after_ * (x_ - end_);
+    z_ = {z_.real() * turn_.real() - z_.imag() * turn_.imag(),
+          z_.real() * turn_.imag() + z_.imag() * turn_.real()};
+    x_ += step_;
+    return value;
+  }
+
+ private:
+  KinkShape shape_;
+  double x_, step_, damped_ = 1.0, end_ = 0.0, after_ = 1.0;
+  std::complex<double> turn_, z_;
 };
 
 /// Least squares of y(t) = P(t) + A shape(t − t_k)₊: P in the span of some columns, and from t_k on something

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/least_squares.h"
+#include "signals/least_squares.h"
 #include "sliding_mode/light_load.h"
 #include "sliding_mode/one_body_search.h"
 
@@ -53,7 +53,7 @@ OneBodyLaw first_law(const Instants& s) {
     A.row(r) << u / weights, 1.0, -v, -std::copysign(1.0, v);
     y(r) = (s.x[i + 2 * m] - 2.0 * s.x[i] + s.x[i - 2 * m]) / (span * span);
   }
-  const Eigen::Vector4d found = least_squares_of(A, y);
+  const Eigen::Vector4d found = signals::least_squares_of(A, y);
   return {found(0), found(1), std::max(found(2), 0.0), std::max(found(3), 0.0), 0.0, s.fastest};
 }
 

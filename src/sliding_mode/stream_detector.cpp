@@ -2,8 +2,7 @@
 
 #include "gapscope/base/require.h"
 #include "sliding_mode/frozen_search.h"
-#include "sliding_mode/told_events.h"
-#include "sliding_mode/verdict.h"
+#include "sliding_mode/verdict/verdict.h"
 
 namespace gapscope {
 
@@ -44,14 +43,14 @@ LearntFacts StreamDetector::learnt() const {
 
 std::vector<GapEvent> StreamDetector::take() {
   std::vector<GapEvent> events;
-  for (const internal::sliding_mode::Transition& t : state_->search.take())
+  for (const internal::sliding_mode::Passage& t : state_->search.take())
     events.push_back(internal::sliding_mode::event_of(t));
   return events;
 }
 
 GapEstimate StreamDetector::estimate() const {
   const internal::sliding_mode::ImpactAnalysis analysis = state_->search.summary();
-  GapEstimate estimate = internal::sliding_mode::decide_gap({&analysis, 1}, {&state_->dt, 1});
+  GapEstimate estimate = internal::sliding_mode::decide_stream(analysis, state_->dt);
   if (has_learnt()) estimate.bound = analysis.run.bounds[analysis.deciding];
   estimate.events.clear();
   return estimate;

@@ -2,7 +2,7 @@
 
 #include "gapscope/recording/recording.h"
 #include "signals/signal_facts.h"
-#include "sliding_mode/bank_run.h"
+#include "sliding_mode/marks/marks.h"
 
 namespace gapscope::internal::sliding_mode {
 

@@ -168,7 +168,6 @@ Remark flights_together(long used, long turns) {
           "{} passages after {} changes of the torque's sign, looked at together",
           {used, turns}};
 }
-Remark mean_of_periods(long periods) { return {"mean_of_periods", " in the mean of {} periods", {periods}}; }
 
 Remark stands_still() { return {"stands_still", "x1 moves by less than its noise"}; }
 Remark few_torque_ramps(long zeros) {

@@ -47,7 +47,6 @@ Remark samples_apart();
 Remark one_body(double mass_ratio, double half_periods);
 Remark only_large_gaps(double mass_ratio, double visible, double travel);
 Remark flights_together(long used, long turns);
-Remark mean_of_periods(long periods);  ///< added to another
 
 // Quasi-static loops.
 struct Play {

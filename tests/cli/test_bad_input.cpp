@@ -97,8 +97,6 @@ const std::vector<BadInput> kRecordings = {
 };
 
 const std::vector<BadInput> kConfigs = {
-    config("frozen_with_a_bound", kSimulated + "detector: {bound: 4, frozen: true}\n",
-           "c.yaml:14: detector.bound is '4', expected auto"),
     config("unknown_method", kSimulated + "detector: {method: loop}\n",
            "c.yaml:14: detector.method is 'loop'"),
     config("paper_without_a_bound", kSimulated + "detector: {method: paper}\n",

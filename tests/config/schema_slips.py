@@ -222,8 +222,7 @@ BY_HAND = [
     *[(RECORDED, ("detector", detector))
       for detector in ({"method": "paper"}, {"method": "paper", "bound": 40}, {"method": "paper", "bound": "auto"},
                        {"method": "impact", "bound": 40}, {"method": "lost_motion", "bound": "auto"}, {"bound": 0}, {"bound": -4},
-                       {"frozen": True, "bound": 40}, {"frozen": True, "method": "lost_motion"}, {"frozen": True, "method": "impact"},
-                       {"frozen": False, "bound": 40}, {"bound": {"from_model": {"input_limit": 0.5, "load_force_bound": 0}}},
+                       {"frozen": True}, {"bound": {"from_model": {"input_limit": 0.5, "load_force_bound": 0}}},
                        {"bound": {"from_model": {"input_limit": 0.5}}}, {"bound": {}}, {"method": "magic"}, {})],
     (RECORDED, ("detector", {"bound": {"from_model": {"input_limit": 0.5, "load_force_bound": 0}}}), (INERTIA, GONE)),
     (RECORDED, ("detector", {"bound": {"from_model": {"input_limit": 0.5, "load_force_bound": 0}}}), (INERTIA, {"estimate": True})),

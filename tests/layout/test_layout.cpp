@@ -33,7 +33,7 @@ const std::map<std::string, Names>& allowed_modules() {
         {"plant", {"base"}},
         {"torque_view", {"base", "recording", "signals", "plant"}},  // no simulator, no solver
         {"simulation", {"base", "recording", "plant"}},
-        {"sliding_mode", {"base", "recording", "signals"}},  // the detector sees no model
+        {"sliding_mode", {"base", "recording", "signals"}},  // the detector is given no model
         {"reference", {"base", "recording", "signals", "plant", "simulation"}},
         {"independent_plant", {"base", "recording"}},  // shares no code with what it checks
         {"engine_plant", {"base", "recording", "independent_plant"}},
@@ -172,12 +172,30 @@ Names modules_seen_by(const std::string& module) {
   return modules;
 }
 
-TEST(Layout, TheDetectorSeesNoModelOfADriveNotEvenOfOneBody) {
+/// It fits local laws of motion, but nothing tells it a model or a number of the drive.
+TEST(Layout, TheDetectorIsGivenNoModelAndNoParameterOfADrive) {
   EXPECT_EQ(modules_seen_by("sliding_mode"), Names({"base", "recording", "signals", "sliding_mode"}));
-  const Names headers = headers_seen_by("sliding_mode");
-  EXPECT_TRUE(headers.contains("signals/signal_facts.h"));
-  EXPECT_FALSE(headers.contains("signals/one_body.h"));
-  EXPECT_TRUE(headers_seen_by("reference").contains("signals/one_body.h"));
+}
+
+/// Rooms of the detector, in the order in which they see each other, and the header by which.
+TEST(Layout, TheRoomsOfTheDetectorSeeEachOtherThroughTheirDoors) {
+  const std::map<std::string, std::string> doors = {
+      {"marks", "marks.h"}, {"passage", "passage.h"}, {"verdict", "verdict.h"}, {"published", "one_bound.h"}};
+  const std::map<std::string, Names> seen_from = {
+      {"marks", {}}, {"passage", {"marks"}}, {"verdict", {"marks", "passage"}}, {"published", {"marks"}}};
+  std::size_t through = 0;
+  for (const Include& i : includes()) {
+    const fs::path header = i.header, from = i.file;
+    if (!i.header.starts_with("sliding_mode/") || !doors.contains(header.parent_path().filename())) continue;
+    const std::string room = header.parent_path().filename(), own = from.parent_path().filename();
+    if (room == own) continue;
+    ++through;
+    EXPECT_EQ(header.filename(), doors.at(room)) << i.file << " includes " << i.header;
+    if (seen_from.contains(own)) {
+      EXPECT_TRUE(seen_from.at(own).contains(room)) << i.file << " includes " << i.header;
+    }
+  }
+  EXPECT_GT(through, 5u);
 }
 
 TEST(Layout, TheIndependentPlantAndTheDiagnosisShareNothingButBaseAndRecording) {
@@ -274,12 +292,12 @@ TEST(Layout, WhatIsPrivateIsInTheNamespaceOfItsModule) {
   }
 }
 
-TEST(Layout, NoFileIsLongerThanThreeHundredLines) {
+TEST(Layout, NoFileIsLongerThanFourHundredLines) {
   for (const char* top : {"include", "src", "tests", "docs"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
       std::ifstream in(entry.path());
-      EXPECT_LE(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 300) << entry.path();
+      EXPECT_LE(std::count(std::istreambuf_iterator<char>(in), {}, '\n'), 400) << entry.path();
     }
 }
 

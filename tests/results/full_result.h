@@ -46,7 +46,7 @@ inline GapEstimate estimate(const RunResult& run) {
   g.bound_t1 = 3.7 * kThird;
   g.scale = 50.0;
   g.events.push_back({"a.csv", kThird, 2 * kThird, -kThird, kThird, 0.018, 0.017, 1e-5, -1, false,
-                      "bounced, \n", 0.1 * kThird, 9});
+                      "bounced, \n", 0.1 * kThird});
   g.events.push_back({"b.csv", 1.0, kNaN, 1e-300, kNaN, kNaN, kNaN, kNaN, 1, true, ""});
   g.traces = {{"a.csv", run.recordings[0].x1, run.recordings[0].u}, {"b.csv", run.recordings[1].x1, {}}};
   g.traces[0].error[3] = kNaN;

@@ -125,7 +125,6 @@ TEST(RunResult, EventsComeBackExactly) {
     EXPECT_SAME(gap_uncorrected);
     EXPECT_SAME(std);
     EXPECT_SAME(t_c);
-    EXPECT_EQ(a.periods, b.periods);
     EXPECT_EQ(a.direction, b.direction);
     EXPECT_EQ(a.accepted, b.accepted);
     EXPECT_EQ(a.remark, b.remark);

@@ -19,7 +19,7 @@ struct Periodic {
     return 0.1 * std::sin(phase) + 0.02 * std::cos(3.0 * phase);
   }
   MotorTrace trace(double seconds, double drift = 0.0) {
-    auto generator = random_stream(1, "folding");
+    auto generator = random_stream(1, "periodic");
     for (int i = 0; i * dt < seconds; ++i) {
       const double t = i * dt, x = truth(t) + drift * t + noise * normal(generator);
       u.push_back(std::sin(2.0 * kPi * t / period));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "signals/folding.h"
 #include "signals/period.h"
 #include "signals/periodic.h"
 
@@ -23,7 +22,6 @@ TEST(Period, AnInputThatDoesNotRepeatItselfHasNoPeriod) {
     p.u[i] = std::sin(std::pow(0.004 * static_cast<double>(i), 1.7));
   EXPECT_EQ(exact_period(trace, 4.0), 0.0);
   EXPECT_EQ(rough_period(trace), 0u);
-  EXPECT_EQ(fold(trace).periods, 0u);
 }
 
 TEST(Period, AnInputThatRepeatsItselfRoughlyHasARoughPeriodOnly) {

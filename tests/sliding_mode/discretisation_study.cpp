@@ -9,7 +9,9 @@
 
 #include "gapscope/base/statistics.h"
 #include "independent_plant/simulate.h"
-#include "sliding_mode/paper_method.h"
+#include "signals/signal_facts.h"
+#include "sliding_mode/marks/bank_run.h"
+#include "sliding_mode/published/paper_method.h"
 
 namespace gapscope {
 namespace {
@@ -64,10 +66,9 @@ Errors errors_of(const internal::sliding_mode::PaperReading& reading,
 }
 
 /// Median height of e_x within 10 ms after the impacts, over its floor.
-double spike_over_floor(const MotorTrace& trace, const internal::sliding_mode::ImpactAnalysis& analysis,
-                        double bound, Discretisation d, const std::vector<GapPassage>& passages) {
-  const internal::sliding_mode::BankErrors run =
-      internal::sliding_mode::run_bank(trace, analysis.facts, {bound}, d);
+double spike_over_floor(const MotorTrace& trace, const internal::signals::SignalFacts& facts, double bound,
+                        Discretisation d, const std::vector<GapPassage>& passages) {
+  const internal::sliding_mode::BankErrors run = internal::sliding_mode::run_bank(trace, facts, {bound}, d);
   std::vector<double> heights;
   for (const GapPassage& p : passages) {
     double height = 0.0;
@@ -79,13 +80,13 @@ double spike_over_floor(const MotorTrace& trace, const internal::sliding_mode::I
   return median(std::move(heights));
 }
 
-std::string cell(const MotorTrace& trace, const internal::sliding_mode::ImpactAnalysis& analysis,
-                 double bound, Discretisation d, const std::vector<GapPassage>& passages) {
-  const Errors e = errors_of(read_with_bound(trace, analysis, bound, d), passages);
+std::string cell(const MotorTrace& trace, const internal::signals::SignalFacts& facts, double bound,
+                 Discretisation d, const std::vector<GapPassage>& passages) {
+  const Errors e = errors_of(internal::sliding_mode::read_with_bound(trace, facts, bound, d), passages);
   if (2 * e.gap.size() >= passages.size())
     return fmt::format("{:.1f} / {:.2f} / {:.1f} %", 1e3 * median(e.t1), 1e3 * median(e.t2),
                        100.0 * median(e.gap));
-  return fmt::format("s {:.0f}", spike_over_floor(trace, analysis, bound, d, passages));
+  return fmt::format("s {:.0f}", spike_over_floor(trace, facts, bound, d, passages));
 }
 
 void print_table(const Setting& s) {
@@ -98,12 +99,11 @@ void print_table(const Setting& s) {
   for (const double dt : {0.05e-3, 0.1e-3, 0.4e-3, 1e-3}) {
     const independent_plant::BlindRun run = record(s, dt);
     const MotorTrace trace = run.recording.motor_trace();
-    const internal::sliding_mode::ImpactAnalysis analysis =
-        internal::sliding_mode::analyse(trace, internal::signals::read_facts(trace));
+    const internal::signals::SignalFacts facts = internal::signals::read_facts(trace);
     const auto passages = passages_of(run.truth, 1.0 / s.frequency);
     for (const double bound : s.bounds) {
       fmt::print("| {} ms | {} |", 1e3 * dt, bound);
-      for (const Discretisation d : kAll) fmt::print(" {} |", cell(trace, analysis, bound, d, passages));
+      for (const Discretisation d : kAll) fmt::print(" {} |", cell(trace, facts, bound, d, passages));
       fmt::print("\n");
     }
   }

@@ -1,6 +1,6 @@
 // Random drives of the independent plant for the detector: how often it answers, how well, and how honest its
 // intervals are.  study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each]
-// [wide] [frozen] [rubs] [pushed] [held] [slides]: wide: other contacts, torques and lengths; frozen: as a
+// [wide] [stream] [rubs] [pushed] [held] [slides]: wide: other contacts, torques and lengths; stream: as a
 // stream, which learns from the first two periods; rubs: the motor has dry friction, too, of 0.02 to 0.3 of
 // the torque's amplitude; pushed: the load has an unbalance of 0.5 to 5 times its dry friction, 1 to 20
 // periods a turn; held: 0.3 to 1 of that friction is elastic, and holds on over 0.03 to 1 of the gap; slides:
@@ -19,6 +19,7 @@
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"
+#include "sliding_mode/as_stream.h"
 
 namespace gapscope {
 namespace {
@@ -52,7 +53,7 @@ struct Extras {
 };
 
 Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform waveform,
-            independent_plant::DriveLaws laws, const Extras& extras, const DetectorOptions& options) {
+            independent_plant::DriveLaws laws, const Extras& extras, bool streamed) {
   independent_plant::BlindCase c =
       with_gap ? independent_plant::random_drive(seed, waveform, laws)
                : independent_plant::random_gap_free_drive(
@@ -86,7 +87,7 @@ Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform wavef
                      ? 0.0
                      : c.drive.load_inertia / c.drive.motor_inertia;
   o.coasting = with_gap ? median_coasting(r.truth) : 0.0;
-  o.estimate = detect_gap({&trace, 1}, options);
+  o.estimate = streamed ? as_stream(trace).estimate : detect_gap({&trace, 1});
   return o;
 }
 
@@ -151,7 +152,7 @@ int main_study(int argc, char** argv) {
   if (argc < 5) {
     fmt::print(stderr,
                "study_sliding_mode FIRST_SEED COUNT gap|gap_free sine|triangle|trapezoid|multisine [each] "
-               "[wide] [frozen] [rubs] [pushed] [held] [slides]\n");
+               "[wide] [stream] [rubs] [pushed] [held] [slides]\n");
     return 2;
   }
   const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
@@ -165,9 +166,8 @@ int main_study(int argc, char** argv) {
       asked("wide") ? independent_plant::DriveLaws::kWide : independent_plant::DriveLaws::kStated;
   std::map<std::string, Tally> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const Outcome o =
-        run(seed, with_gap, waveform, laws, {asked("rubs"), asked("pushed"), asked("held"), asked("slides")},
-            {.frozen = asked("frozen")});
+    const Outcome o = run(seed, with_gap, waveform, laws,
+                          {asked("rubs"), asked("pushed"), asked("held"), asked("slides")}, asked("stream"));
     if (asked("each")) print_case(o);
     for (const std::string& name : classes(o)) tallies[name].add(o);
   }

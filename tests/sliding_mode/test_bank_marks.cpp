@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "sliding_mode/bank_marks.h"
+#include "sliding_mode/marks/bank_marks.h"
 #include "test_drive.h"
 
 namespace gapscope::internal::sliding_mode {

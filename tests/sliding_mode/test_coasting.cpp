@@ -7,7 +7,7 @@
 
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"
-#include "sliding_mode/shared_law.h"
+#include "sliding_mode/as_stream.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -30,66 +30,6 @@ struct CoastingSubject {
   }
   GapEstimate read() const { return detect_gap({&trace, 1}); }
 };
-
-/// ẍ = 3 u − 2 ẋ − 0.5 sign(ẋ), in small steps.
-struct KnownMotion {
-  std::vector<double> u, x1;
-
-  KnownMotion() {
-    double x = 0.1, v = 0.0;
-    for (int i = 0; i < 2000; ++i) {
-      u.push_back(std::sin(2.0 * kPi * 1e-3 * i));
-      x1.push_back(x);
-      for (int k = 0; k < 100; ++k) {
-        v += 1e-5 * (3.0 * u.back() - 2.0 * v - 0.5 * (v > 0.0 ? 1.0 : -1.0));
-        x += 1e-5 * v;
-      }
-    }
-  }
-};
-
-std::size_t turn_after(const MotorTrace& trace, std::size_t i) {
-  const bool rising = trace.x1[i + 1] > trace.x1[i];
-  while ((trace.x1[i + 1] > trace.x1[i]) == rising) ++i;
-  return i;
-}
-
-TEST(SharedLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
-  const KnownMotion motion;
-  const MotorTrace trace{"known", 0.0, 1e-3, motion.u, motion.x1};
-  const std::size_t turn = turn_after(trace, 400), next = turn_after(trace, turn + 5);
-  const std::vector<LawStretch> stretches{{turn - 200, static_cast<double>(turn) + 1.0, turn + 200, -1},
-                                          {turn + 210, static_cast<double>(turn) + 210.0, next - 20, -1}};
-  const SharedLaw law(trace, stretches);
-  EXPECT_NEAR(law.drive(), 3.0, 0.01);
-  EXPECT_NEAR(law.viscous(), 2.0, 0.05);
-  EXPECT_NEAR(law.dry(), 0.5, 0.02);
-  EXPECT_LT(law.rms(), 1e-5);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t i = stretches[k].last - 50;
-    const SharedLaw::State s = law.state(k, static_cast<double>(i));
-    EXPECT_NEAR(s.position, trace.x1[i], 1e-5);
-    EXPECT_NEAR(s.speed, (trace.x1[i + 1] - trace.x1[i - 1]) / 2e-3, 2e-3);
-  }
-  const SharedLaw rest = law.without(1, 2);  // the first stretch alone
-  EXPECT_NEAR(rest.drive(), 3.0, 0.05);
-}
-
-TEST(SharedLaw, FrictionThatWouldDriveIsNoneWhereItIsToBePassive) {
-  std::vector<double> u, x1;
-  for (int i = 0; i < 400; ++i) {
-    const double t = 1e-3 * i;
-    u.push_back(1.0);
-    x1.push_back(1.5 * t * t + 0.4 * t * t * t);  // gains acceleration under a constant torque
-  }
-  const MotorTrace trace{"driven", 0.0, 1e-3, u, x1};
-  const std::vector<LawStretch> stretches{{10, 10, 390, 1}};
-  EXPECT_LT(SharedLaw(trace, stretches).viscous(), -0.1);
-  const SharedLaw passive(trace, stretches, SharedLaw::Friction::kPassive);
-  EXPECT_GE(passive.viscous(), 0.0);
-  EXPECT_GE(passive.dry(), 0.0);
-  EXPECT_GT(passive.rms(), 10.0 * SharedLaw(trace, stretches).rms());
-}
 
 TEST(Coasting, ALoadThatMovesIsReadWithTheFrictionThatItsEngagedFlankShows) {
   const CoastingSubject s(
@@ -136,7 +76,7 @@ TEST(Coasting, AMotorThatComesToRestWithinTheGapTellsNoGap) {
   const GapEstimate estimate = s.read();
   EXPECT_NE(estimate.verdict, GapVerdict::kBacklash);
   EXPECT_EQ(std::ranges::count_if(estimate.events, &GapEvent::accepted), 0);
-  EXPECT_NE(detect_gap({&s.trace, 1}, {.frozen = true}).verdict, GapVerdict::kBacklash);
+  EXPECT_NE(as_stream(s.trace).estimate.verdict, GapVerdict::kBacklash);
 }
 
 TEST(Coasting, AMotorThatRestsAtItsLoadIsStillReadWhereTheTorqueRestsToo) {

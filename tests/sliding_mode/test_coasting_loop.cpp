@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "gapscope/sliding_mode/detector.h"
-#include "sliding_mode/loop_verdict.h"
+#include "sliding_mode/verdict/loop_verdict.h"
 
 namespace gapscope {
 namespace {

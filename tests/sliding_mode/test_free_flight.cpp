@@ -6,7 +6,7 @@
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"
-#include "sliding_mode/free_flight.h"
+#include "sliding_mode/passage/flight.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -37,19 +37,19 @@ const GapPassage& late_passage(const BlindRun& run) {
   throw std::logic_error("no passage");
 }
 
-FlightWindow window_of(const MotorTrace& trace, const GapPassage& p) {
+signals::LawStretch window_of(const MotorTrace& trace, const GapPassage& p) {
   const auto at = [&](double t) { return static_cast<std::size_t>(t / trace.dt); };
-  FlightWindow w{at(p.t1 - 0.2), 0, at(p.t2) + 5, p.to_flank};
+  signals::LawStretch w{at(p.t1 - 0.2), at(p.t2) + 5, 0.0, p.to_flank};
   std::size_t turn = w.first;
   for (std::size_t i = w.first; i <= at(p.t2); ++i)
     if (w.direction * trace.x1[i] <= w.direction * trace.x1[turn]) turn = i;
-  w.reversal = static_cast<double>(turn);
+  w.turn = static_cast<double>(turn);
   return w;
 }
 
-class Release : public testing::TestWithParam<bool> {};
+class ReleaseOf : public testing::TestWithParam<bool> {};
 
-TEST_P(Release, IsFoundWhereContactWasLostWithTheSpeedOfTheLoadThere) {
+TEST_P(ReleaseOf, IsFoundWhereContactWasLostWithTheSpeedOfTheLoadThere) {
   const BlindRun run = simulate(GetParam() ? coasting_drive() : BlindDrive{});
   const MotorTrace trace = run.recording.motor_trace();
   const GapPassage& p = late_passage(run);
@@ -68,7 +68,7 @@ TEST_P(Release, IsFoundWhereContactWasLostWithTheSpeedOfTheLoadThere) {
   EXPECT_GE(flight.latest.time, flight.begin.time);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfALoad, Release, testing::Values(false, true),
+INSTANTIATE_TEST_SUITE_P(Loads, ReleaseOf, testing::Values(false, true),
                          [](const auto& load) { return load.param ? "ThatCoasts" : "AtRest"; });
 
 TEST(FlightLaw, FindsTheMotorsOwnCoefficientsWithoutBeingToldAny) {
@@ -79,8 +79,9 @@ TEST(FlightLaw, FindsTheMotorsOwnCoefficientsWithoutBeingToldAny) {
   const FlightLaw law(trace, window_of(trace, p), trace.quantum);
   FlightLaw::Fit fit;
   ASSERT_TRUE(law.fit_before(static_cast<std::size_t>(p.t2 / trace.dt) - 3, fit));
-  EXPECT_NEAR(fit.coefficients[2], drive.torque_constant / drive.motor_inertia, 0.03 * fit.coefficients[2]);
-  EXPECT_NEAR(-fit.coefficients[3], drive.motor_damping / drive.motor_inertia, -0.03 * fit.coefficients[3]);
+  const double b = fit.numbers(signals::LawColumns::kDrive), a = -fit.numbers(signals::LawColumns::kViscous);
+  EXPECT_NEAR(b, drive.torque_constant / drive.motor_inertia, 0.03 * b);
+  EXPECT_NEAR(a, drive.motor_damping / drive.motor_inertia, 0.03 * a);
 }
 
 TEST(FlightLaw, OneLawForTheWholeStrokeMeansThatNoContactWasLost) {
@@ -88,7 +89,7 @@ TEST(FlightLaw, OneLawForTheWholeStrokeMeansThatNoContactWasLost) {
   drive.load = independent_plant::BlindLoad::kNone;
   const BlindRun run = simulate(drive);
   const MotorTrace trace = run.recording.motor_trace();
-  const FlightWindow window{10000, 10400, 11200, 1};
+  const signals::LawStretch window{10000, 11200, 10400.0, 1};
   EXPECT_FALSE(FlightLaw(trace, window, trace.quantum / std::sqrt(12.0)).find_release(11000).found);
 }
 

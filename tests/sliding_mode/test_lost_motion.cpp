@@ -6,7 +6,7 @@
 
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/simulate.h"
-#include "sliding_mode/lost_motion.h"
+#include "sliding_mode/verdict/lost_motion.h"
 
 namespace gapscope {
 namespace {
@@ -209,7 +209,7 @@ TEST(LostMotion, AFreeLoadIsNotQuasiStatic) {
   const MotorTrace trace = recording.motor_trace();
   const internal::signals::SignalFacts facts = internal::signals::read_facts(trace);
   const auto search = internal::sliding_mode::read_lost_motion({&trace, 1}, {&facts, 1});
-  EXPECT_FALSE(search.estimate);
+  EXPECT_FALSE(search.found);
   EXPECT_EQ(search.why_not.code(), "does_not_follow");
 }
 
@@ -217,8 +217,8 @@ TEST(LostMotion, ARecordingWithoutHalfCyclesHasNoLoop) {
   const std::vector<double> u(500, 0.1), x1(500, 0.2);
   const MotorTrace trace{"constant.csv", 0.0, 1e-3, u, x1, 0.0};
   const internal::signals::SignalFacts facts = internal::signals::read_facts(trace);
-  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}, {&facts, 1}).estimate);
-  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({}, {}).estimate);
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({&trace, 1}, {&facts, 1}).found);
+  EXPECT_FALSE(internal::sliding_mode::read_lost_motion({}, {}).found);
 }
 
 TEST(LostMotion, DeniesNothingWhereTheMotorHardlyMoves) {

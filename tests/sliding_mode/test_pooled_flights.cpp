@@ -7,8 +7,9 @@
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"
 #include "signals/signal_facts.h"
-#include "sliding_mode/pooled_flights.h"
-#include "sliding_mode/pooled_reading.h"
+#include "sliding_mode/as_stream.h"
+#include "sliding_mode/verdict/pooled_flights.h"
+#include "sliding_mode/verdict/pooled_reading.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -30,7 +31,10 @@ struct PooledSubject {
     trace.quantum = c.sensor.quantum;
     facts = signals::read_facts(trace);
   }
-  std::optional<GapEstimate> read() const { return read_pooled({&trace, 1}, {&facts, 1}); }
+  std::optional<GapEstimate> read() const {
+    const auto evidence = read_pooled({&trace, 1}, {&facts, 1});
+    return evidence ? std::optional(conclude(*evidence)) : std::nullopt;
+  }
 };
 
 TEST(PooledFlights, EveryChangeOfTheTorquesSignIsATurn) {
@@ -47,9 +51,7 @@ TEST(PooledFlights, EveryChangeOfTheTorquesSignIsATurn) {
 
 TEST(PooledFlights, ALightLoadThatNoSinglePassageShowsIsReadInTheirSum) {
   const PooledSubject s(independent_plant::random_drive(700250));  // 0.4 of the motor, 72 quanta of 16 bit
-  DetectorOptions options;
-  options.frozen = true;  // a stream reads single passages only
-  EXPECT_NE(detect_gap({&s.trace, 1}, options).verdict, GapVerdict::kBacklash);
+  EXPECT_NE(as_stream(s.trace).estimate.verdict, GapVerdict::kBacklash);  // it reads single passages only
   const GapEstimate estimate = detect_gap({&s.trace, 1});
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.04 * s.c.drive.gap);

@@ -5,38 +5,14 @@
 
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/sliding_mode/detector.h"
-#include "gapscope/sliding_mode/stream_detector.h"
 #include "independent_plant/random_drive.h"
+#include "sliding_mode/as_stream.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/test_drive.h"
 #include "support/data.h"
 
 namespace gapscope {
 namespace {
-
-struct Streamed {
-  std::vector<GapEvent> events;
-  LearntFacts learnt;
-  GapEstimate estimate;
-};
-
-/// The samples one by one; what is ready is asked for after every `pause` of them.
-Streamed stream(const MotorTrace& trace, std::size_t pause) {
-  StreamDetector detector(trace.start, trace.dt, trace.quantum);
-  Streamed s;
-  const auto take = [&] {
-    for (GapEvent& e : detector.take()) s.events.push_back(std::move(e));
-  };
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    detector.push(trace.u[i], trace.x1[i]);
-    if (i % pause == 0) take();
-  }
-  detector.finish();
-  take();
-  s.learnt = detector.learnt();
-  s.estimate = detector.estimate();
-  return s;
-}
 
 /// The same double, or both none.
 void expect_same(double a, double b) {
@@ -52,41 +28,45 @@ void expect_same(const GapEvent& a, const GapEvent& b) {
     expect_same(a.*number, b.*number);
 }
 
-void expect_same(const Streamed& s, const GapEstimate& batch) {
-  ASSERT_EQ(s.events.size(), batch.events.size());
-  for (std::size_t i = 0; i < s.events.size(); ++i) expect_same(s.events[i], batch.events[i]);
-  EXPECT_EQ(s.estimate.verdict, batch.verdict);
-  EXPECT_EQ(s.estimate.reason, batch.reason);
-  expect_same(s.estimate.gap, batch.gap);
-  expect_same(s.estimate.std, batch.std);
-  expect_same(s.estimate.smallest_visible_gap, batch.smallest_visible_gap);
+void expect_same(const Streamed& a, const Streamed& b) {
+  ASSERT_EQ(a.events.size(), b.events.size());
+  for (std::size_t i = 0; i < a.events.size(); ++i) expect_same(a.events[i], b.events[i]);
+  EXPECT_EQ(a.estimate.verdict, b.estimate.verdict);
+  EXPECT_EQ(a.estimate.reason, b.estimate.reason);
+  expect_same(a.estimate.gap, b.estimate.gap);
+  expect_same(a.estimate.std, b.estimate.std);
+  expect_same(a.estimate.smallest_visible_gap, b.estimate.smallest_visible_gap);
 }
 
-GapEstimate frozen(const MotorTrace& trace) { return detect_gap({&trace, 1}, {.frozen = true}); }
-
-TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnDrivesOfTheIndependentPlant) {
-  std::size_t events = 0;
-  for (std::uint64_t seed = 910001; seed < 910006; ++seed) {
+/// Where both read a gap, the stream and the detector that sees all of the recording read the same one.
+TEST(StreamDetector, ReadsWhatTheWholeRecordingReadsWhateverThePiecesItComesIn) {
+  std::size_t events = 0, both = 0;
+  for (std::uint64_t seed = 910001; seed < 910008; ++seed) {
     independent_plant::BlindCase c =
         independent_plant::random_drive(seed, independent_plant::Waveform::kSine);
     c.options.tolerance = independent_plant::kFastTolerance;
     const independent_plant::BlindRun run = independent_plant::simulate_blind(c);
     MotorTrace trace = run.recording.motor_trace();
     trace.quantum = c.sensor.quantum;
-    const GapEstimate batch = frozen(trace);
-    for (const std::size_t pause : {std::size_t{1}, std::size_t{997}, trace.size()})
-      expect_same(stream(trace, pause), batch);
-    events += batch.events.size();
+    const Streamed whole = as_stream(trace, trace.size());
+    for (const std::size_t pause : {std::size_t{1}, std::size_t{997}})
+      expect_same(as_stream(trace, pause), whole);
+    events += whole.events.size();
+    const GapEstimate batch = detect_gap({&trace, 1});
+    if (whole.estimate.verdict != GapVerdict::kBacklash || batch.verdict != GapVerdict::kBacklash) continue;
+    ++both;
+    EXPECT_NEAR(whole.estimate.gap, batch.gap, batch.std + whole.estimate.std) << seed;
   }
   EXPECT_GT(events, 12u);
+  EXPECT_GE(both, 2u);
 }
 
-TEST(StreamDetector, TellsTheEventsOfTheFrozenBatchOnRealRecordings) {
+TEST(StreamDetector, TellsNoGapOfRealRecordingsWithoutOne) {
   GAPSCOPE_NEEDS_DATA();
   for (const char* file : {"emps/emps_train.csv", "emps/emps_pulses.csv"}) {
     const Recording recording = read_recording((testing::data_folder() / file).string());
-    const Streamed s = stream(recording.motor_trace(), 100);
-    expect_same(s, frozen(recording.motor_trace()));
+    const Streamed s = as_stream(recording.motor_trace(), 100);
+    expect_same(s, as_stream(recording.motor_trace(), 1));
     EXPECT_NE(s.estimate.verdict, GapVerdict::kBacklash) << file;
   }
 }
@@ -95,7 +75,7 @@ TEST(StreamDetector, ReadsThePaperRigAsTheWholeRecordingDoes) {
   const TestRecording recording = paper_experiment(1, 0.4);
   const MotorTrace trace = recording.trace();
   const GapEstimate whole = detect_gap({&trace, 1});
-  const Streamed s = stream(trace, 1);
+  const Streamed s = as_stream(trace);
   ASSERT_EQ(s.estimate.verdict, GapVerdict::kBacklash) << s.estimate.brief_report();
   EXPECT_NEAR(s.estimate.gap / 0.0188, 1.0, 0.02);
   EXPECT_NEAR(s.estimate.gap, whole.gap, whole.std);
@@ -107,7 +87,7 @@ TEST(StreamDetector, ReadsThePaperRigAsTheWholeRecordingDoes) {
 TEST(StreamDetector, WhatComesLaterChangesNothingThatWasTold) {
   const TestRecording recording = paper_experiment(2, 0.4);
   MotorTrace trace = recording.trace();
-  const Streamed whole = stream(trace, 1);
+  const Streamed whole = as_stream(trace);
   trace.x1 = trace.x1.first(trace.size() / 2), trace.u = trace.u.first(trace.size() / 2);
   StreamDetector detector(trace.start, trace.dt, trace.quantum);
   for (std::size_t i = 0; i < trace.size(); ++i) detector.push(trace.u[i], trace.x1[i]);

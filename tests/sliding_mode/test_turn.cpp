@@ -3,8 +3,8 @@
 
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "sliding_mode/passage/turn.h"
 #include "sliding_mode/test_drive.h"
-#include "sliding_mode/turn.h"
 
 namespace gapscope {
 namespace {

@@ -45,7 +45,6 @@ std::vector<Remark> all_remarks() {
           words::directions_differ(),
           words::recordings_differ(),
           words::samples_apart(),
-          words::mean_of_periods(9),
           words::one_body(0.1, 12.0),
           words::only_large_gaps(0.1, 0.019, 0.246),
           words::stands_still(),

@@ -22,7 +22,6 @@ struct DetectorConfig {
   DetectorMethod method = DetectorMethod::kAuto;
   std::optional<double> bound;               ///< [rad/s²]
   std::optional<BoundKnowledge> from_model;  ///< L by eq. (13)
-  bool frozen = false;                       ///< learns from the first two periods only, as a stream must
   int line = 0;
 };
 

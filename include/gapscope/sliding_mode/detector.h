@@ -21,9 +21,8 @@ struct DetectorOptions {
   EncoderSide encoder = EncoderSide::kMotor;
   bool locked = false;  ///< the output is declared not to move, so its load cannot rest or coast
   double bound = 0.0;   ///< L [rad/s²] for the paper's own S3 and S4 on one e_x; 0: `auto`, a bank of bounds
-  double paper_bound =
-      0.0;  ///< lower end of (13) where a model gave one, for the warning only [rad/s²]; 0: unknown
-  bool frozen = false;  ///< bounds, floors and thresholds from the first two periods only (StreamDetector)
+  /// Lower end of (13) where a model gave one, for the warning only [rad/s²]; 0: unknown.
+  double paper_bound = 0.0;
 };
 
 /// The model-free estimate of the backlash gap (Sections II-B to III-C, steps S1–S6), from the motor encoder

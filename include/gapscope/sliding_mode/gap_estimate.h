@@ -40,7 +40,6 @@ struct GapEvent {
   bool accepted = true;           ///< false: seen, but not used in the estimate
   std::string remark;             ///< why it was not used, or what was corrected
   double t_c = kNaN;              ///< e_x of `traces` is at rest since [s]; NaN: it was not just before t1
-  int periods = 1;                ///< that it is the mean of, told in the middle one of them
 };
 
 /// The error signal e_x (forward Euler) that shows t1 and t2, one per recording; kept for the figures.

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "gapscope/recording/recording.h"
+#include "signals/signal_facts.h"
+#include "sliding_mode/passage/release.h"
+
+namespace gapscope::internal::sliding_mode {
+
+/// A rest, and samples of the motor alone after it.
+struct RestBeforeFlight {
+  Reversal rest;
+  std::size_t begin = 0, core = 0;  ///< of the flight
+};
+
+/// Whether the motor may have come to the rest that passages begin from by itself, within the gap: a load
+/// that goes on farther has then left it before, and the way from the rest to the impact is no gap. That it
+/// rests at its load is shown by a torque that pushes it there beyond its own dry friction without moving it,
+/// or by an arrival that the law of the free motor, which the flights obey, cannot follow (unless the
+/// motor's own friction can hold it there), or that no lone motor can follow which then rests at one place
+/// until its flight begins there.
+/// @param passages  of one kind: all rest at the load, or none does
+bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
+                    std::span<const RestBeforeFlight> passages);
+
+}  // namespace gapscope::internal::sliding_mode

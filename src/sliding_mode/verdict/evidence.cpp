@@ -1,0 +1,63 @@
+#include "sliding_mode/verdict/evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "gapscope/base/normal.h"
+#include "sliding_mode/verdict/pool.h"
+#include "sliding_mode/words.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+/// What an interval that is too wide is mostly made of, and what would narrow it. Where contact is lost and
+/// regained is read to a count or so, of which also the directions differ: twice as many counts in the gap
+/// halve it.
+/// @param excess of the interval over the widest that is told
+Remark mostly(const GapEvidence& e, double excess) {
+  const Deviations& d = e.parts;
+  const double most = std::max({d.random, d.directions, d.recordings, d.systematic, d.sampling, d.noise});
+  const double counts = e.gap / e.quantum;
+  if (most == d.random) return words::passages_differ();
+  if (most == d.sampling) return words::samples_apart();
+  if (most == d.recordings) return words::recordings_differ();
+  if (counts < kFineGap) return words::few_counts(counts, excess * counts);
+  return most == d.directions ? words::directions_differ() : words::ends_uncertain();
+}
+
+}  // namespace
+
+double Deviations::together() const {
+  double sum = 0.0;
+  for (const double d : {random, directions, recordings, systematic, sampling, noise}) sum += d * d;
+  return std::sqrt(sum);
+}
+
+GapEstimate conclude(GapEvidence e) {
+  GapEstimate estimate;
+  estimate.verdict = GapVerdict::kInconclusive;
+  estimate.method = e.method;
+  estimate.quantity = e.quantity;
+  estimate.smallest_visible_gap = e.smallest_visible_gap;
+  estimate.events = std::move(e.events);
+  estimate.warnings = std::move(e.warnings);
+  estimate.reason = e.denies ? e.reading : e.against;
+  if (e.denies) estimate.verdict = GapVerdict::kNone;
+  if (!estimate.reason.empty()) return estimate;
+  const double std = e.parts.together(), share = kNormal95 * std / e.gap;
+  const double widest = e.quantity == GapQuantity::kGap ? kWidest : kWidestPlay;
+  if (!(share <= widest)) {
+    estimate.reason = words::gap_uncertain(e.gap, 100.0 * share, mostly(e, share / widest));
+    return estimate;
+  }
+  estimate.verdict = GapVerdict::kBacklash;
+  estimate.gap = e.gap;
+  estimate.std = std;
+  estimate.ci95 = {std::max(e.gap - kNormal95 * std, 0.0), e.gap + kNormal95 * std};
+  estimate.reason = e.reading;
+  return estimate;
+}
+
+}  // namespace gapscope::internal::sliding_mode

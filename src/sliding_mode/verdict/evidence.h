@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "gapscope/sliding_mode/gap_estimate.h"
+
+namespace gapscope::internal::sliding_mode {
+
+/// Of what the standard deviation of a reading is made [rad].
+struct Deviations {
+  double random = 0.0;      ///< from passage to passage
+  double directions = 0.0;  ///< between rising and falling x1
+  double recordings = 0.0;  ///< between recordings
+  double systematic = 0.0;  ///< where contact is lost and regained, alike in all passages
+  double sampling = 0.0;    ///< from one sample to the next
+  double noise = 0.0;       ///< of the encoder
+  double together() const;
+};
+
+/// What one way of looking at the recordings says of a gap: impacts of single passages, all passages
+/// together, the lost-motion loop. Whichever it was, conclude() makes the same of it.
+struct GapEvidence {
+  GapMethod method = GapMethod::kImpact;
+  GapQuantity quantity = GapQuantity::kGap;
+  double gap = kNaN;  ///< [rad]; NaN: none is read
+  Deviations parts;
+  double quantum = 0.0;                ///< of the encoder [rad]
+  Remark reading;                      ///< how it was read
+  Remark against;                      ///< why it is no reading; empty: nothing speaks against it
+  double smallest_visible_gap = kNaN;  ///< that is told with it [rad]
+  bool denies = false;                 ///< no gap above that, and `reading` is why
+  std::vector<GapEvent> events;
+  std::vector<Remark> warnings;
+};
+
+/// Half the 95 % interval of a gap that is told, over the gap, and of a play at zero torque, which the ramps
+/// that can be recorded leave less precise.
+constexpr double kWidest = 0.095, kWidestPlay = 0.25;
+
+/// Verdict, interval and reason: `none` of what denies a gap, `backlash` where nothing speaks against one
+/// that is known closely enough, else `inconclusive` with the reason.
+GapEstimate conclude(GapEvidence evidence);
+
+}  // namespace gapscope::internal::sliding_mode

@@ -1,0 +1,220 @@
+#include "sliding_mode/verdict/pool.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
+#include "sliding_mode/visible_gap.h"
+#include "sliding_mode/words.h"
+
+namespace gapscope::internal::sliding_mode {
+namespace {
+
+constexpr double kStriking = 2.5;  ///< contrast from which on a passage is not that of friction
+
+/// Standard deviation, over the half width of a passage: in gaps below kFineGap quanta or behind a soft
+/// contact, and in others. Of the 78 others of 871001 150 gap sine, 3391001 60 gap trapezoid and 3376001 60
+/// gap multisine intervals hold 77 with 0.53, 76 with 0.43, 73 with 0.27; with 0.86 all hold and five are too
+/// wide to be told.
+constexpr double kSystematic = 0.53, kSystematicFine = 0.43;
+
+constexpr std::size_t kFewest = 2;        ///< passages in each direction
+constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
+constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
+constexpr double kScatter = 0.25;         ///< of the gap: between passages, and between directions
+
+/// Of a gap, that the motor may go on before its impact shows. Four of 871001 150 gap sine and 3376001 60 gap
+/// multisine that 0.07 withheld read -0.3 to 3.6 % off, within their intervals, where these are narrow enough
+/// to be told; beyond 0.12 they are not (871114, 871058). From kSoft on, they stay as wide as those of coarse
+/// encoders: of 101 told (of 4100001 600 gap sine and 4310001 120 gap sine wide) half and double change 12
+/// intervals, by up to a fifth; all 101 hold either way, and none becomes too wide to be told.
+constexpr double kMostHidden = 0.12, kSoft = 0.07;
+constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
+constexpr double kLeastMoving = 0.1;     ///< … from which on one direction alone is not believed
+constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving
+constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
+constexpr double kFewestMoving = 100.0;  ///< quanta in a gap within which the load travels far
+
+/// Of the passages. 0.2 withholds two right readings (871011, 871106 gap sine: 0.54); 1 tells nothing more.
+constexpr double kFewMovingLoads = 0.6;
+
+std::vector<double> gaps_of(const std::vector<const Passage*>& passages, int direction) {
+  std::vector<double> gaps;
+  for (const Passage* p : passages)
+    if (direction == 0 || p->event.direction == direction) gaps.push_back(p->event.gap);
+  return gaps;
+}
+
+template <class Member>
+double median_of(const Pool& pool, Member member) {
+  std::vector<double> values;
+  for (const Passage* p : pool.accepted) values.push_back(p->*member);
+  return median(std::move(values));
+}
+
+std::size_t in(const std::map<int, std::size_t>& counts, int direction) {
+  if (direction == 0) return in(counts, 1) + in(counts, -1);
+  const auto found = counts.find(direction);
+  return found == counts.end() ? 0 : found->second;
+}
+
+/// What the accepted passages say: of both directions, or of the one that alone shows the gap, where an
+/// unsymmetrical motion does so one way only.
+struct Middle {
+  int only = 0;  ///< that direction; 0: both
+  std::size_t used = 0;
+  double up = kNaN, down = kNaN, gap = kNaN, apart = 0.0, scatter = 0.0;  ///< [rad]
+};
+
+Middle middle_of(const std::vector<const Passage*>& passages) {
+  Middle m;
+  const std::vector<double> up = gaps_of(passages, 1), down = gaps_of(passages, -1);
+  if (std::min(up.size(), down.size()) < kFewest && std::max(up.size(), down.size()) >= kFewestOneWay)
+    m.only = up.size() > down.size() ? 1 : -1;
+  m.used = m.only > 0 ? up.size() : m.only < 0 ? down.size() : up.size() + down.size();
+  m.up = up.empty() ? kNaN : median(up), m.down = down.empty() ? kNaN : median(down);
+  m.gap = m.only > 0 ? m.up : m.only < 0 ? m.down : 0.5 * (m.up + m.down);
+  m.apart = m.only == 0 ? std::abs(m.up - m.down) : 0.0;
+  m.scatter = std::max(m.only >= 0 ? robust_std(up) : 0.0, m.only <= 0 ? robust_std(down) : 0.0);
+  return m;
+}
+
+/// A gap is passed in most half periods, and most of what looks like a passage is one. Those in the rebound
+/// of an impact, and those without an abrupt end, say nothing for or against.
+double fewest_passages(const Pool& pool, int direction) {
+  const double half_periods = direction == 0 ? pool.half_periods : 0.5 * pool.half_periods;
+  const auto candidates = static_cast<double>(in(pool.passages, direction) - in(pool.mute, direction));
+  return std::ceil(kMost * std::max(half_periods, candidates));
+}
+
+/// Farther than one can tell how far the load went. Where its law tells, the doubt of that is in the
+/// interval: 10.3 gaps are read 0.5 % off (4100039 gap sine).
+bool travels_too_far(const Pool& pool, const Middle& m) {
+  const double moved = std::abs(median_of(pool, &Passage::load_travel));
+  const auto by_law = std::ranges::count_if(pool.accepted, &Passage::by_law);
+  if (2 * by_law > std::ssize(pool.accepted)) return false;
+  return moved > kFarthest * m.gap || (m.only != 0 && moved > kLeastMoving * m.gap) ||
+         (moved > kFewTravel * m.gap && m.gap < kFewestMoving * pool.quantum);
+}
+
+/// Why the accepted passages do not make a reading; empty if they do.
+Remark objection(const Pool& pool, const Middle& m) {
+  const std::size_t plus = gaps_of(pool.accepted, 1).size(), minus = pool.accepted.size() - plus;
+  if (m.only == 0 && std::min(plus, minus) < kFewest)
+    return words::few_passages_each_way(static_cast<long>(plus), static_cast<long>(minus),
+                                        advice(pool.commonest()));
+  const double asked = fewest_passages(pool, m.only);
+  if (static_cast<double>(m.used) < asked)
+    return words::few_passages(std::ssize(pool.accepted), asked, static_cast<long>(pool.seen()),
+                               pool.half_periods, advice(pool.commonest()));
+  if (m.scatter > kScatter * m.gap) return words::passages_scatter(100.0 * m.scatter / m.gap);
+  if (m.apart > kScatter * m.gap) return words::directions_contradict(m.up, m.down);
+  if (m.gap > kMostOfTravel * pool.travel) return words::most_of_travel(m.gap, pool.travel);
+  for (const Refusal why : {Refusal::kLoadMoving, Refusal::kPushed})
+    if (const auto found = pool.refused.find(why); found != pool.refused.end())
+      if (static_cast<double>(found->second) > kFewMoving * static_cast<double>(pool.accepted.size()))
+        return advice(why);
+  if (travels_too_far(pool, m)) return advice(Refusal::kLoadMoving);
+  if (m.gap < signals::kFewestToldQuanta * pool.quantum)
+    return words::gap_few_quanta(m.gap, m.gap / pool.quantum);
+  const double hidden = median_of(pool, &Passage::hidden);
+  if (hidden > kMostHidden * m.gap) return words::soft_contact(100.0 * hidden / m.gap);
+  return {};
+}
+
+/// Half of what the recordings disagree by that show the gap each by itself [rad].
+double recordings_disagreement(const std::vector<const Passage*>& passages) {
+  std::map<std::string, std::vector<const Passage*>> of_files;
+  for (const Passage* p : passages) of_files[p->event.file].push_back(p);
+  double low = kInfinity, high = -kInfinity;
+  for (const auto& [file, own] : of_files) {
+    const std::size_t up = gaps_of(own, 1).size();
+    if (std::min(up, own.size() - up) < kFewest) continue;
+    const double gap = middle_of(own).gap;
+    low = std::min(low, gap), high = std::max(high, gap);
+  }
+  return std::max(0.5 * (high - low), 0.0);
+}
+
+Deviations deviations(const Pool& pool, const Middle& m) {
+  const bool coarse = m.gap < kFineGap * pool.quantum || median_of(pool, &Passage::hidden) > kSoft * m.gap;
+  const double witnesses = (m.only == 0 ? 0.5 : 1.0) * static_cast<double>(m.used);
+  return {m.scatter / std::sqrt(std::max(witnesses, 1.0)),
+          0.5 * m.apart,
+          recordings_disagreement(pool.accepted),
+          (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Passage::half_width),
+          0.25 * median_of(pool, &Passage::speed) * pool.dt,
+          pool.noise};
+}
+
+}  // namespace
+
+std::size_t Pool::seen() const { return in(passages, 0); }
+
+Refusal Pool::commonest() const {
+  const auto most = std::ranges::max_element(refused, {}, [](const auto& counted) { return counted.second; });
+  return most == refused.end() ? Refusal::kNone : most->first;
+}
+
+bool Pool::load_is_pushed() const {
+  const auto pushed = refused.find(Refusal::kPushed);
+  return pushed != refused.end() && 2 * pushed->second > seen();
+}
+
+bool Pool::load_rests() const {
+  std::size_t moving = 0;
+  for (const auto& [why, count] : refused)
+    if (speaks_of_moving_load(why)) moving += count;
+  return static_cast<double>(moving) <= kFewMovingLoads * static_cast<double>(seen());
+}
+
+Pool pool_of(std::span<const ImpactAnalysis> analyses, std::span<const double> intervals) {
+  Pool pool;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    const ImpactAnalysis& a = analyses[i];
+    if (!a.facts.defect.empty()) {
+      if (pool.defect.empty()) pool.defect = a.facts.defect;
+      continue;
+    }
+    pool.half_periods += static_cast<double>(a.facts.half_periods);
+    pool.travel = std::min(pool.travel, a.facts.travel);
+    pool.noise = std::max(pool.noise, a.facts.noise);
+    pool.quantum = std::max(pool.quantum, a.facts.quantum);
+    pool.dt = std::max(pool.dt, intervals[i]);
+    pool.visible = std::max(pool.visible, a.smallest_visible_gap);
+    pool.finest = std::max(pool.finest, a.finest_gap);
+    pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));
+    pool.marks += a.marks;
+    for (const Passage& p : a.passages) {
+      pool.events.push_back(event_of(p));
+      ++pool.passages[p.event.direction];
+      pool.mute[p.event.direction] += says_nothing(p.refusal);
+      pool.striking += p.contrast >= kStriking;
+      if (p.refusal == Refusal::kNone)
+        pool.accepted.push_back(&p);
+      else
+        ++pool.refused[p.refusal];
+    }
+  }
+  return pool;
+}
+
+GapEvidence gap_evidence(const Pool& pool) {
+  GapEvidence e;
+  e.quantum = pool.quantum;
+  e.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;
+  e.events = pool.events;
+  const Middle m = middle_of(pool.accepted);
+  e.against = pool.half_periods > 0.0 ? objection(pool, m)
+              : pool.defect.empty()   ? words::no_recording()
+                                      : pool.defect;
+  if (!e.against.empty()) return e;
+  e.gap = m.gap;
+  e.parts = deviations(pool, m);
+  e.reading = words::passages_used(static_cast<long>(m.used), static_cast<long>(pool.seen()), m.only);
+  e.smallest_visible_gap = pool.finest < m.gap ? pool.finest : kNaN;  // it foretells, this one shows
+  return e;
+}
+
+}  // namespace gapscope::internal::sliding_mode
