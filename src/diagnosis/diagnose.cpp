@@ -110,7 +110,7 @@ Findings first_look(Study& study) {
   if (at_floor(found.before) || finish_requested()) return found;
   if (std::optional<ScoredModel> together = explained_together(study, found.before)) {
     found.alone = std::max(found.before.median_free, found.before.median_innovation);
-    found.before = std::move(*together);
+    found.before = std::move(*together), study.train = everything(study);
     return found;
   }
   const HeldOut by_encoder = study.held_out;

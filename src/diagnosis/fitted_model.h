@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct FittedModel {
   std::array<BoundReached, kDriveParameterCount> drive_at_bound = {};  ///< of the drive's parameters
   bool balanced =
       false;  ///< its numbers are those of the torque balance, which no fit to the motion has moved
+  std::optional<reference::StandardErrors> errors = {};  ///< once it is settled, see settle.h
   bool searched = false;  ///< from afar with its effects as they are: that has led nowhere else
 };
 

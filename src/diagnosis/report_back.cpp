@@ -12,6 +12,7 @@
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/remark.h"
+#include "diagnosis/settle.h"
 #include "diagnosis/tell_budget.h"
 #include "diagnosis/tell_intervals.h"
 #include "diagnosis/under_controller.h"
@@ -148,7 +149,8 @@ void tell_steps(const Study& study, const Additions& added, double band_hz, Diag
 }
 
 /// What each accepted step takes, by the measure of the whole; a step that made others superfluous has none.
-void tell_added(const Study& study, const ScoredModel& nominal, const Additions& additions, Diagnosis& d) {
+void tell_added(const Study& study, const ScoredModel& nominal, const Additions& additions,
+                const ReferenceModel& told, Diagnosis& d) {
   const bool one_each =
       additions.effects.size() == d.effects.size() && d.steps.size() + 1 >= d.effects.size();
   for (std::size_t i = 0; i < additions.effects.size(); ++i) {
@@ -157,7 +159,7 @@ void tell_added(const Study& study, const ScoredModel& nominal, const Additions&
     a.effect = effect.entry->name;
     a.established = true;
     a.group = names_of(effect.group);
-    a.parameters = values_in(additions.after.fitted.model, *effect.entry);
+    a.parameters = values_in(told, *effect.entry);
     const bool alone = additions.steps.empty() || !additions.steps.front().decision.accepted;
     const MismatchSize size = i > 0   ? (one_each ? d.steps[i - 1].mismatch : MismatchSize{})
                               : alone ? d.mismatch
@@ -235,12 +237,12 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   Diagnosis d;
   d.verdict = verdict_of(found, additions);
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const ScoredModel& nominal = added ? nominal_of(found, additions) : found.before;
+  const ScoredModel told = settled(study, added ? additions.after : found.before);
+  const ScoredModel& nominal = added ? nominal_of(found, additions) : told;
   tell_steps(study, additions, band_of(found), d);
-  tell_models(study, found, nominal, added ? additions.after : nominal,
-              added ? &first_effect(found, additions) : nullptr, d);
-  if (added) tell_added(study, nominal, additions, d);
-  tell_intervals(study, added ? additions.after.fitted : nominal.fitted, nominal.fitted.model, d);
+  tell_models(study, found, nominal, told, added ? &first_effect(found, additions) : nullptr, d);
+  if (added) tell_added(study, nominal, additions, told.fitted.model, d);
+  tell_intervals(study, told.fitted, nominal.fitted.model, d);
   d.rivals = open_question(found, additions);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
@@ -270,14 +272,15 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
 }  // namespace
 
 Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueSearch& ladder) {
-  Diagnosis d = report_added(study, found, ladder.after, added_effects(*found.budget, ladder));
+  const TorqueSearch told{ladder.added, settled(study, ladder.after)};
+  Diagnosis d = report_added(study, found, told.after, added_effects(*found.budget, told));
   mark_undecided(d);
   d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }
 
 Diagnosis report_help(const Study& study, const Findings& found) {
-  const ScoredModel& best = found.candidates.front();
+  const ScoredModel best = settled(study, found.candidates.front());
   AddedEffect a;
   a.effect = best.entry->name;
   a.group = names_of(found.decision.group);

@@ -137,6 +137,11 @@ std::vector<MotorTrace> everything(const Study& study) {
   return all;
 }
 
+std::vector<reference::RecordingStart> starts_on(const Study& study, const FittedModel& fitted) {
+  if (fitted.starts.size() == study.train.size()) return fitted.starts;
+  return settled_starts(study.train, fitted.model, study.observer_hz);
+}
+
 HeldOut fitted_as_held_out(const Study& study) {
   HeldOut all;
   all.traces = study.train;

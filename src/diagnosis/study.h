@@ -44,6 +44,10 @@ HeldOut fitted_as_held_out(const Study& study);
 /// there is no limit, as nothing follows.
 void count_first_step(Study& study, std::size_t candidates);
 
+/// The state that each recording that is fitted begins with, of a model that was fitted to them. A model of
+/// the torque balance brings none.
+std::vector<reference::RecordingStart> starts_on(const Study& study, const FittedModel& fitted);
+
 /// What is fitted and what is held out.
 std::vector<MotorTrace> everything(const Study& study);
 

@@ -23,12 +23,8 @@ struct FitErrors {
 
 FitErrors errors_of(const Study& study, const FittedModel& fitted) {
   const reference::ModelFit fit(study.train, fitted.model, study.options.fit, study.observer_hz);
-  // A model of the torque balance brings no initial states.
-  const auto starts = fitted.starts.size() == study.train.size()
-                          ? fitted.starts
-                          : settled_starts(study.train, fitted.model, study.observer_hz);
-  const reference::FitPoint at = fit.point_of(fitted.model, starts);
-  reference::StandardErrors errors = fit.standard_errors(at);
+  const reference::FitPoint at = fit.point_of(fitted.model, starts_on(study, fitted));
+  reference::StandardErrors errors = fitted.errors ? *fitted.errors : fit.standard_errors(at);
   FitErrors told{std::move(errors.numbers), {}, fit.at_bound(at), std::move(errors.doubts)};
   for (const auto& [id, error] : told.errors) told.bounds.push_back(fit.bounds(id));
   return told;

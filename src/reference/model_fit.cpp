@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "reference/identifiability.h"
+#include "reference/outcome.h"
 #include "reference/prediction.h"
 #include "reference/search.h"
 #include "reference/starts.h"
@@ -135,7 +136,25 @@ std::vector<double> ModelFit::spreads(const FitPoint& at, std::span<const Weight
 StandardErrors ModelFit::standard_errors(const FitPoint& at) const {
   const Information information = information_at(*problem_, at, observer_hz_);
   count(information.simulations);
-  const Determination determined = determine(*problem_, at, information);
+  return errors_of(at, information, {});
+}
+
+std::optional<SettledFit> ModelFit::settled(const FitPoint& at, int iterations) const {
+  FitProblem problem = *problem_;
+  problem.options.max_iterations = iterations;
+  const Square predicted = mean_square_with_priors(problem, at, problem.options.observer_hz);
+  const Solution found{at, predicted.value};
+  if (is_rejected(problem, found)) return {};
+  const FitOutcome outcome = outcome_near_floor(problem, found);
+  count(predicted.simulations + outcome.simulations);
+  const Solution& s = outcome.solution;
+  return SettledFit{{s, s.mean_square_with_priors, s.converged, s.simulations},
+                    errors_of(s, outcome.information, outcome.shift())};
+}
+
+StandardErrors ModelFit::errors_of(const FitPoint& at, const Information& information,
+                                   const std::vector<double>& shift) const {
+  const Determination determined = determine(*problem_, at, information, shift);
   const std::vector<ParameterId> ends = at_bound(at);
   StandardErrors errors;
   for (std::size_t i = 0; i < problem_->free_count(); ++i) {

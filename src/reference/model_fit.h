@@ -113,7 +113,14 @@ struct StandardErrors {
   std::vector<Doubt> doubts;  ///< that what it leaves raises against all of them
 };
 
+/// The end of a fit, and what it knows of its numbers there.
+struct SettledFit {
+  RefinedFit end;
+  StandardErrors errors;
+};
+
 struct FitProblem;
+struct Information;
 
 /// A model beside recordings, to be fitted again and again by other modules: from here, with this effort. The
 /// whole fit, with intervals and what they rest on, is fit().
@@ -166,6 +173,11 @@ class ModelFit {
   /// By the rule of fit(), at this observer alone.
   StandardErrors standard_errors(const FitPoint& at) const;
 
+  /// From where the search has ended to the values that fit() would report, and with its errors. Nothing
+  /// where the model is not the drive: its free run says nothing of the numbers.
+  /// @param iterations of each local search at most, see FitOptions::max_iterations
+  std::optional<SettledFit> settled(const FitPoint& at, int iterations) const;
+
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;
   ModelRun run_at(const FitPoint& at) const;
@@ -176,6 +188,8 @@ class ModelFit {
  private:
   /// Counts what was spent, in samples, where the options ask for it.
   void count(double simulations) const;
+  StandardErrors errors_of(const FitPoint& at, const Information& information,
+                           const std::vector<double>& shift) const;
 
   std::unique_ptr<const FitProblem> problem_;
   std::shared_ptr<std::atomic<std::int64_t>> work_;

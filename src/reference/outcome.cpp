@@ -164,17 +164,23 @@ std::vector<double> FitOutcome::shift() const {
   return sum;
 }
 
+bool is_rejected(const FitProblem& problem, const Solution& found) {
+  return !(std::sqrt(found.mean_square_with_priors) <= problem.options.rejected_ratio);
+}
+
 FitOutcome outcome_of(const FitProblem& problem, const SearchResult& ends) {
-  const FitOptions& o = problem.options;
-  const Solution found = ends.best();
+  if (!is_rejected(problem, ends.best())) return outcome_near_floor(problem, ends.best());
   FitOutcome outcome;
-  if (std::sqrt(found.mean_square_with_priors) > o.rejected_ratio) {
-    take_rejected(problem, ends, outcome);
-    return outcome;
-  }
+  take_rejected(problem, ends, outcome);
+  return outcome;
+}
+
+FitOutcome outcome_near_floor(const FitProblem& problem, const Solution& found) {
+  const FitOptions& o = problem.options;
+  FitOutcome outcome;
   const FreeRunMinima polished = polish(problem, found);
   outcome.simulations += polished.simulations;
-  if (polished.best.usable() && std::sqrt(polished.best.mean_square_with_priors) <= o.rejected_ratio) {
+  if (!is_rejected(problem, polished.best)) {
     take(problem, polished.best, 0.0, outcome);
     spread_over_minima(problem, polished.others, outcome);
     warn_of_pattern(outcome);

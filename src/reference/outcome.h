@@ -35,6 +35,10 @@ struct FitOutcome {
 /// and between parts of the recordings.
 FitOutcome outcome_of(const FitProblem& problem, const SearchResult& found);
 
+/// The same of the end of a search whose predictions are near the floor: is_rejected() says whether.
+FitOutcome outcome_near_floor(const FitProblem& problem, const Solution& found);
+bool is_rejected(const FitProblem& problem, const Solution& found);
+
 /// Names the parameters that change by more than their own intervals. A gap that is another one on another
 /// part of the recordings is no gap: it is not identifiable.
 void judge_changes(const FitProblem& problem, const FitOutcome& outcome, Determination& determined);

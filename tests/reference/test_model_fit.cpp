@@ -99,6 +99,30 @@ TEST(ModelFit, ARefinementGoesToTheValueThatThePriorAndTheRecordingAgreeOn) {
   EXPECT_TRUE(fit.at_bound(refined).empty());
 }
 
+TEST(ModelFit, SettlesWhereTheWholeFitEndsWithItsErrors) {
+  const FittedRig rig;
+  const ModelFit near = rig.fit();
+  const RefinedFit coarse = near.refine_with_loads_placed(near.given_point(), {2, 4, 1e-2});
+  const std::optional<SettledFit> settled = near.settled(coarse, FitOptions{}.max_iterations);
+  ASSERT_TRUE(settled);
+  const FitSummary whole = fit_one(rig.recording, rig.model);
+  ReferenceModel found = near.model_at(settled->end);
+  for (const auto& [id, error] : settled->errors.numbers) {
+    const FittedParameter* p = whole.find(kDriveParameters[id.index].key);
+    ASSERT_NE(p, nullptr);
+    EXPECT_NEAR(setting_of(found, id).value, p->value, 0.1 * p->std) << p->key;
+    EXPECT_NEAR(error, p->std, 0.1 * p->std) << p->key;
+  }
+}
+
+TEST(ModelFit, DoesNotSettleWhereTheModelIsNotTheDrive) {
+  FittedRig rig;
+  rig.model.parameters[kMotorInertia].value *= 2.0;
+  const ModelFit other = rig.fit();
+  const RefinedFit found = other.refine_with_loads_placed(other.given_point(), {});
+  EXPECT_FALSE(other.settled(found, FitOptions{}.max_iterations));
+}
+
 TEST(ModelFit, ANumberOfAnEffectIsFoundByItsPlace) {
   FittedRig rig;
   const EffectEntry* cogging = find_effect("cogging_torque");
