@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "independent_plant/dynamics.h"
+#include "independent_plant/event_stepper.h"
 
 namespace gapscope::independent_plant {
 
@@ -25,35 +25,18 @@ class Motion {
   void hold(double command);  ///< acts from now on [unit of u]
   void advance(double t_end);
 
-  double time() const { return t_; }
-  const State& state() const { return s_; }
+  double time() const { return now_.t; }
+  const State& state() const { return now_.s; }
   const Regime& regime() const { return regime_; }
   int flank_in_contact() const;  ///< −1, 0, +1
-  double energy() const { return dynamics_.stored_energy(t_, s_, regime_); }
+  double energy() const { return dynamics_.stored_energy(now_.t, now_.s, regime_); }
   const std::vector<ContactEvent>& contact_events() const { return contact_events_; }
-  long steps() const { return steps_; }
+  long steps() const { return now_.steps; }
 
  private:
-  /// Shares of a step at which the guards are looked at.
-  static constexpr std::array kSamples{0.0, 0.07, 0.3, 0.5, 0.7, 0.93, 1.0};
-  struct Crossing {
-    int guard = -1;
-    double theta = 1.0;  ///< share of the step
-  };
-  struct Bracket {
-    double low, high;  ///< shares of the step: guard ≥ 0, guard < 0
-  };
-
   void advance_smoothly(double t_end);
   template <int Size>
   void advance_sized(double t_end);
-  bool adapt_step(double error, double h);
-  template <class Step>
-  Crossing first_crossing(const Step& step, double h) const;
-  template <class Step>
-  Bracket find_bracket(int i, const std::array<Guards, kSamples.size()>& g, const Step& step, double h) const;
-  template <class Step>
-  double locate(int guard, Bracket bracket, double h, const Step& step) const;
   void settle();
   void change_regime(int guard);
   void change_contact(int guard);
@@ -64,13 +47,11 @@ class Motion {
   void note(bool closed, int flank);
 
   const Dynamics& dynamics_;
-  State tolerance_{};
-  State s_{};
+  TimedState now_;
   Regime regime_;
-  double t_ = 0.0, h_ = 1e-5, held_ = 0.0;
+  double held_ = 0.0;
   std::vector<ContactEvent> contact_events_;
   std::size_t next_kink_ = 0;
-  long steps_ = 0;
 };
 
 }  // namespace gapscope::independent_plant

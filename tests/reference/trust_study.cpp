@@ -1,7 +1,7 @@
 // How far fits are trusted, on drives whose truth is known, and on real recordings that read as they should
 // not. Random drives of the independent plant by the laws of random_drive.h; stiffness and damping of the
 // contact are given for even seeds, and sought for odd ones.
-// study_trust KIND [first seed] [count] [DATA]
+// study_fit_trust KIND [first seed] [count] [DATA]
 //   right    the model is the drive
 //   effect   the drive has an effect that the model lacks, the severity 0 to 1
 //   none     the drive has no gap, the model is told that it has one
