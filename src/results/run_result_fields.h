@@ -101,6 +101,7 @@ void fields(Archive& archive, GapEstimate& g) {
   archive.added("lost_motion_ci95_rad", g.lost_motion.ci95);
   archive.added("lost_motion", g.lost_motion);
   archive("smallest_visible_gap_rad", g.smallest_visible_gap);
+  archive.added("gap_at_most_rad", g.gap_at_most);
   archive("bound_rad_s2", g.bound);
   archive("bound_t1_rad_s2", g.bound_t1);
   archive("paper_bound_rad_s2", g.paper_bound);

@@ -99,10 +99,12 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   const bool only_loop = options.method == DetectorMethod::kLostMotion, paper = options.bound > 0.0;
   for (std::size_t i = 0; i < recordings.size() && !only_loop; ++i)
     analyses.push_back(internal::sliding_mode::analyse(recordings[i], in.facts[i]));
-  GapEstimate estimate = only_loop ? internal::sliding_mode::decide_by_loop(loops)
+  GapEstimate estimate = only_loop ? internal::sliding_mode::decide_by_loop(loops, options.locked)
                          : paper   ? detect_paper(in, analyses, loops, options)
                                    : decide_gap(in, analyses, loops, options);
   if (loops.found) estimate.lost_motion = loops.found->lost_motion;
+  estimate.gap_at_most =
+      estimate.verdict == GapVerdict::kNone ? estimate.none_above() : estimate.lost_motion.gap_limit;
   internal::sliding_mode::hold_against_gap(estimate);
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);

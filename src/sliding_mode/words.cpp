@@ -255,6 +255,13 @@ Remark play_at_one_level() {
           "the play at zero torque was read at one torque level only; ramp to another amplitude as well: a "
           "play that depends on it is friction or compliance"};
 }
+Remark play_is_a_bound(double limit) {
+  return {"play_is_a_bound",
+          "the loop was recorded at one torque level and the output is not declared locked, so a load that "
+          "slides may be part of it: the gap is at most {:.3g} [rad]; ramp to another amplitude as well, or "
+          "lock the output and declare it (load: locked)",
+          {limit}};
+}
 Remark play_read(std::span<const Play> levels, double free_run) {
   return Remark("play", "branches of the lost-motion loop: ") + listed(levels) +
          Remark("free_run", "; on each ramp x1 runs free over {:.3g} [rad]", {free_run});

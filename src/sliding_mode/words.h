@@ -68,6 +68,7 @@ Remark hysteresis_hides(std::span<const Play> levels, double visible, double tra
 Remark play_scatters(std::span<const Play> levels, double half_width);
 Remark play_depends_on_level(std::span<const Play> levels, double limit);  ///< NaN: no limit on a gap
 Remark play_at_one_level();
+Remark play_is_a_bound(double limit);  ///< of a gap [rad]
 Remark play_read(std::span<const Play> levels, double free_run);
 Remark no_free_run(std::span<const Play> levels);
 Remark small_ramps(double travel, double visible);  ///< travel of a ramp

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/family.h"
 #include "independent_plant/simulate.h"
 #include "sliding_mode/verdict/lost_motion.h"
 
@@ -40,10 +41,10 @@ Recording ramps(const independent_plant::BlindDrive& drive, double torque = kTor
       .recording;
 }
 
-GapEstimate detect(const std::vector<Recording>& recordings) {
+GapEstimate detect(const std::vector<Recording>& recordings, bool declared_locked = false) {
   std::vector<MotorTrace> traces;
   for (const Recording& r : recordings) traces.push_back(r.motor_trace());
-  return detect_gap(traces);
+  return detect_gap(traces, {.locked = declared_locked});
 }
 
 void expect_play(const GapEstimate& estimate, double play) {
@@ -57,7 +58,7 @@ void expect_play(const GapEstimate& estimate, double play) {
 }
 
 TEST(LostMotion, WithoutFrictionThePlayIsTheGap) {
-  const GapEstimate estimate = detect({ramps(locked())});
+  const GapEstimate estimate = detect({ramps(locked())}, true);
   expect_play(estimate, 0.01);
   ASSERT_EQ(estimate.warnings.size(), 1u);
   EXPECT_THAT(estimate.warnings[0].text(), HasSubstr("one torque level only"));
@@ -67,23 +68,40 @@ TEST(LostMotion, FrictionOfTheMotorAddsItsWindUpOnBothFlanks) {
   for (const double level : {0.02, 0.06}) {
     independent_plant::BlindDrive drive = locked();
     drive.effects.motor.friction.level_nm = level;
-    expect_play(detect({ramps(drive)}), 0.01 + 2.0 * level / drive.contact_stiffness);
+    expect_play(detect({ramps(drive)}, true), 0.01 + 2.0 * level / drive.contact_stiffness);
   }
 }
 
-TEST(LostMotion, AVeryHeavyLoadIsAsGoodAsALockedOne) {
+/// A load that slides makes such a loop, too: nobody has said that this one does not move.
+TEST(LostMotion, OfAnOutputThatIsNotDeclaredLockedOneLevelIsABound) {
   independent_plant::BlindDrive drive = locked();
   drive.load = independent_plant::BlindLoad::kFree;
   drive.load_inertia = 300.0 * drive.motor_inertia;
   drive.load_coulomb = 0.5;
-  expect_play(detect({ramps(drive)}), 0.01);
+  const GapEstimate estimate = detect({ramps(drive)});
+  EXPECT_EQ(estimate.verdict, GapVerdict::kInconclusive);
+  EXPECT_EQ(estimate.reason.code(), "play_is_a_bound");
+  EXPECT_GE(estimate.gap_at_most, 0.01);
+  EXPECT_LT(estimate.gap_at_most, 0.012);
+  expect_play(detect({ramps(drive)}, true), 0.01);
+}
+
+/// Friction of the load near the torque, and a travel of little more than the gap.
+TEST(LostMotion, AFreeLoadThatHardlySlidesTellsNoGapThatIsTooLarge) {
+  const independent_plant::ChainCase c =
+      independent_plant::draw_family("low_travel", 6);  // a play at zero torque of 21 mrad, a gap of 10
+  const independent_plant::ChainRun run = independent_plant::simulate_chain(c);
+  const MotorTrace trace = run.recording.motor_trace();
+  const GapEstimate estimate = detect_gap({&trace, 1});
+  EXPECT_NE(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
+  EXPECT_GE(estimate.gap_at_most, independent_plant::total_gap(c.drive).high);
 }
 
 TEST(LostMotion, OnlyTheZeroOfTheInputCountsNotItsUnit) {
   Recording recording = ramps(locked());
-  const GapEstimate plain = detect({recording});
+  const GapEstimate plain = detect({recording}, true);
   for (double& u : recording.u) u *= 1000.0;
-  EXPECT_DOUBLE_EQ(detect({recording}).gap, plain.gap);
+  EXPECT_DOUBLE_EQ(detect({recording}, true).gap, plain.gap);
 }
 
 TEST(LostMotion, HysteresisOfFrictionAndComplianceIsNoPlay) {
@@ -155,7 +173,7 @@ TEST(LostMotion, ALockedDriveWithAGivenBoundIsToldOfItsLoop) {
 TEST(LostMotion, TheMethodThatIsAskedForIsTheOneThatAnswers) {
   const Recording slow = ramps(locked()), fast = fast_locked();
   const MotorTrace ramped = slow.motor_trace(), shaken = fast.motor_trace();
-  const GapEstimate loop = detect_gap({&ramped, 1}, {.method = DetectorMethod::kLostMotion});
+  const GapEstimate loop = detect_gap({&ramped, 1}, {.method = DetectorMethod::kLostMotion, .locked = true});
   EXPECT_EQ(loop.verdict, GapVerdict::kBacklash);
   EXPECT_EQ(loop.method, GapMethod::kLostMotion);
   const GapEstimate impact = detect_gap({&ramped, 1}, {.method = DetectorMethod::kImpact});

@@ -10,10 +10,10 @@
 namespace gapscope {
 namespace {
 
-GapEstimate detect_in(const std::string& file, const ReadOptions& options = {}) {
+GapEstimate detect_in(const std::string& file, const ReadOptions& options = {}, bool locked = false) {
   const Recording recording = read_recording((testing::data_folder() / file).string(), options);
   const MotorTrace trace = recording.motor_trace();
-  return detect_gap({&trace, 1});
+  return detect_gap({&trace, 1}, {.locked = locked});
 }
 
 TEST(RealRecordings, APreloadedScrewHasNoBacklash) {
@@ -33,7 +33,7 @@ GapEstimate reducer(const std::string& name, std::pair<double, double> window) {
   ReadOptions options;
   options.resample_rate = 400.0;
   options.window = window;
-  return detect_in("cycloidal/" + name + ".csv", options);
+  return detect_in("cycloidal/" + name + ".csv", options, true);
 }
 
 TEST(RealRecordings, ThePlayOfALockedReducerIsReadAtZeroTorque) {

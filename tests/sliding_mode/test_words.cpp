@@ -62,6 +62,7 @@ std::vector<Remark> all_remarks() {
           words::play_depends_on_level(plays, 0.01),
           words::play_depends_on_level(plays, kNaN),
           words::play_at_one_level(),
+          words::play_is_a_bound(0.031),
           words::play_read(plays, 0.03),
           words::no_free_run(plays),
           words::small_ramps(0.1, 0.2),

@@ -167,6 +167,14 @@ void hold_against_gap(GapEstimate& estimate) {
   m.meaning = words::holds_gap(m.value, estimate.gap);
 }
 
+GapEvidence LoopEvidence::undeclared() const {
+  GapEvidence e = evidence;
+  if (lost_motion.levels.size() > 1 || e.denies || !e.against.empty()) return e;
+  e.against = words::play_is_a_bound(lost_motion.gap_limit);
+  e.warnings.clear();
+  return e;
+}
+
 LoopEvidence loop_evidence(Levels levels) {
   LoopEvidence found;
   found.lost_motion = measured(levels);

@@ -35,7 +35,10 @@ void hold_against_gap(GapEstimate& estimate);
 /// Lost motion and what it means, and what it says of a gap.
 struct LoopEvidence {
   LostMotion lost_motion;
-  GapEvidence evidence;
+  GapEvidence evidence;  ///< of an output that is declared not to move
+  /// The same of one that may: a load whose friction is near the torque makes such a loop as well, with the
+  /// way that it slides in it. A play at one level is then an upper bound, and two levels that agree a gap.
+  GapEvidence undeclared() const;
 };
 
 /// @param levels  at least one, by rising torque

@@ -40,15 +40,16 @@ GapEstimate decide_gap(std::span<const MotorTrace> recordings, std::span<const s
   if (!options.locked && !pool.load_is_pushed() && pool.load_rests())
     if (auto together = read_pooled(recordings, facts)) return conclude(std::move(*together));
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
-  if (loops.found && ask_loop) return conclude(loops.found->evidence);
+  if (loops.found && ask_loop)
+    return conclude(options.locked ? loops.found->evidence : loops.found->undeclared());
   if (may_deny(pool, passages))
     estimate = conclude(denial(pool, one_body_gap(recordings, facts), std::move(passages)));
   if (options.locked) speak_of_locked_output(loops, estimate);
   return estimate;
 }
 
-GapEstimate decide_by_loop(const LoopSearch& loops) {
-  if (loops.found) return conclude(loops.found->evidence);
+GapEstimate decide_by_loop(const LoopSearch& loops, bool locked) {
+  if (loops.found) return conclude(locked ? loops.found->evidence : loops.found->undeclared());
   GapEvidence none;
   none.method = GapMethod::kLostMotion;
   none.quantity = GapQuantity::kPlayAtZeroTorque;

@@ -17,7 +17,8 @@ GapEstimate decide_gap(std::span<const MotorTrace> recordings, std::span<const s
                        std::span<const ImpactAnalysis> analyses, const LoopSearch& loops,
                        const DetectorOptions& options);
 
-GapEstimate decide_by_loop(const LoopSearch& loops);
+/// @param locked  the output is declared not to move
+GapEstimate decide_by_loop(const LoopSearch& loops, bool locked);
 
 /// Single passages, or a denial, of one recording whose samples are gone.
 GapEstimate decide_stream(const ImpactAnalysis& analysis, double dt);
