@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "sliding_mode/one_body.h"
+#include "sliding_mode/hidden_gap.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {

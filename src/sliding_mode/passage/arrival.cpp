@@ -6,7 +6,7 @@
 
 #include "gapscope/base/statistics.h"
 #include "signals/motion_law.h"
-#include "sliding_mode/lone_motor.h"
+#include "sliding_mode/free_body.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -80,7 +80,7 @@ bool rubs_to_rest(const MotorTrace& trace, const RestBeforeFlight& p, double way
 /// The arrivals at the rests of all passages, from one distance on, where they have enough samples.
 struct Arrivals {
   std::vector<signals::LawStretch> stretches;
-  std::vector<LoneStretch> whole;  ///< from there through the rest to the end of the flight; else the flight
+  std::vector<FreeStretch> whole;  ///< from there through the rest to the end of the flight; else the flight
   double rows = 0.0, resting = 0.0;
 };
 
@@ -116,7 +116,10 @@ bool follows(const MotorTrace& trace, const signals::SignalFacts& facts, const s
 /// Each rest has one rounding, however long it is.
 bool can_be_alone(const MotorTrace& trace, const signals::SignalFacts& facts, const signals::MotionLaw& alone,
                   const Arrivals& a) {
-  const double all = lone_motor_squares(trace, a.whole, {alone.drive(), alone.viscous(), alone.dry()});
+  const FreeMotion motion{
+      trace.dt, {trace.u.begin(), trace.u.end()}, {trace.x1.begin(), trace.x1.end()}, a.whole};
+  const FreeBody motor{alone.drive(), alone.viscous(), alone.dry()};
+  const double all = follow(motion, motor, FreeNumbers::kDriveAndFriction).squares;
   if (!std::isfinite(all)) return true;
   const double left = (all - alone.squares()) / (a.rows + a.resting);
   const double noise = std::max(alone.rms(), facts.quantum / std::sqrt(12.0));
@@ -129,15 +132,16 @@ bool can_be_alone(const MotorTrace& trace, const signals::SignalFacts& facts, co
 bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
                     std::span<const RestBeforeFlight> passages) {
   const double least = facts.least_way();
+  const std::vector<RestBeforeFlight> some = spread(passages);
   std::vector<RestBeforeFlight> at_rest;
   std::size_t rubbing = 0;
-  for (const RestBeforeFlight& p : passages) {
+  for (const RestBeforeFlight& p : some) {
     if (p.core < p.begin + signals::MotionLaw::kFewestRows) continue;
     const bool rubs = rubs_to_rest(trace, p, least);
     if (rubs || rests(p)) at_rest.push_back(p);
     rubbing += rubs;
   }
-  if (2 * at_rest.size() < passages.size() || at_rest.empty()) return false;
+  if (2 * at_rest.size() < some.size() || at_rest.empty()) return false;
   std::vector<signals::LawStretch> flights;
   for (const auto& p : at_rest) flights.push_back(flight_stretch(p));
   const signals::MotionLaw alone(trace, flights, signals::MotionLaw::Friction::kPassive);
