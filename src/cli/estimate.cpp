@@ -192,7 +192,8 @@ void add_detect(CommandLine& app) {
       "the\n"
       "first two periods taught it (start it in steady motion; after another amplitude or frequency start "
       "it\n"
-      "anew), and has no mean of the periods (coarse encoders) and no lost-motion loop (locked outputs).\n\n"
+      "anew), and looks neither at all passages together (light loads, coarse encoders) nor at the\n"
+      "lost-motion loop (locked outputs).\n\n"
       "Example: gapscope detect configs/02_experiment.yaml -o reports/detected\n"
       "         tail -n +1 -f drive.csv | gapscope detect --stream --input i_q > events.jsonl",
       {true, false}, arguments);
