@@ -200,7 +200,7 @@ const std::vector<Relation> kRelations = {
     {"input a row early", [](D& d) { move_input(d, -1); }, {"AB", kTold}, {"B", kTold}, {"B", kTold}},
     {"input a row late", [](D& d) { move_input(d, 1); }, {"AB", kTold}, {"B", kTold}},
     {"every second row", [](D& d) { take_every(d, 2); }, {"ABC", kTold}, {"B", kTold}, {"W", kTold}},
-    {"every third row", [](D& d) { take_every(d, 3); }, {"ABC", kTold}, {"B", kTold}, {"B", kTold}},
+    {"every third row", [](D& d) { take_every(d, 3); }, {"ABC", kTold}, {"B", kTold}},
     {"every fifth row", [](D& d) { take_every(d, 5); }, {"ABC", kTold}, {"B", kTold}},
     {"every tenth row", [](D& d) { take_every(d, 10); }, {"AB", kTold}, {"B", kTold}},
     {"every row twice",
