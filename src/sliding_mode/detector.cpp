@@ -103,8 +103,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
                          : paper   ? detect_paper(in, analyses, loops, options)
                                    : decide_gap(in, analyses, loops, options);
   if (loops.found) estimate.lost_motion = loops.found->lost_motion;
-  estimate.gap_at_most =
-      estimate.verdict == GapVerdict::kNone ? estimate.none_above() : estimate.lost_motion.gap_limit;
+  estimate.gap_at_most = std::fmin(estimate.gap_at_most, estimate.lost_motion.gap_limit);
   internal::sliding_mode::hold_against_gap(estimate);
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);

@@ -52,7 +52,6 @@ GapEstimate StreamDetector::estimate() const {
   const internal::sliding_mode::ImpactAnalysis analysis = state_->search.summary();
   GapEstimate estimate = internal::sliding_mode::decide_stream(analysis, state_->dt);
   if (has_learnt()) estimate.bound = analysis.run.bounds[analysis.deciding];
-  if (estimate.verdict == GapVerdict::kNone) estimate.gap_at_most = estimate.none_above();
   estimate.events.clear();
   return estimate;
 }

@@ -70,15 +70,16 @@ TEST(MotionLaw, FrictionThatWouldDriveIsNoneWhereItIsToBePassive) {
   EXPECT_GT(passive.rms(), 10.0 * MotionLaw(trace, stretches).rms());
 }
 
+/// Where x1 turns is left out: told to a sample only, it moves the drive by 1 % and the spring by 6.
 TEST(MotionLaw, AForceThatDependsOnThePlaceIsFoundBesideTheOthers) {
   const KnownMotion motion(-4.0);  // a spring
   const MotorTrace trace{"spring", 0.0, 1e-3, motion.u, motion.x1};
   const std::size_t turn = turn_after(trace, 400), next = turn_after(trace, turn + 5);
-  const std::vector<LawStretch> stretches{{turn - 200, turn + 200, static_cast<double>(turn) + 1.0, -1},
-                                          {turn + 210, next - 20, static_cast<double>(turn) + 210.0, -1}};
+  const std::vector<LawStretch> stretches{{turn - 200, turn - 5, static_cast<double>(turn) - 200.0, 1},
+                                          {turn + 5, next - 5, static_cast<double>(turn) + 5.0, -1}};
   const MotionLaw with(trace, stretches, MotionLaw::Friction::kAny, {2, 0.0, 0.5});
-  EXPECT_NEAR(with.drive(), 3.0, 0.05);
-  EXPECT_NEAR(with.force(0.2) - with.force(0.0), -0.8, 0.06);
+  EXPECT_NEAR(with.drive(), 3.0, 0.01);
+  EXPECT_NEAR(with.force(0.2) - with.force(0.0), -0.8, 0.01);
   EXPECT_GT(MotionLaw(trace, stretches).rms(), 20.0 * with.rms());
 }
 

@@ -9,8 +9,7 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kRows = 400;          ///< at most so many samples of a window are fitted
-constexpr std::size_t kFewestSamples = 12;  ///< of the window that the growth starts with
+constexpr std::size_t kRows = 400;   ///< at most so many samples of a window are fitted
 constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr int kPatience = 5;         ///< misses in a row that end the growth
 constexpr double kBeyond = 0.2;      ///< share of the flight that t1 is sought in before the law holds
@@ -69,15 +68,15 @@ std::size_t FlightLaw::grow_back(std::size_t first, std::size_t last) const {
 }
 
 bool FlightLaw::fit_before(std::size_t core, Fit& result) const {
-  if (core < window().first + 2 * kFewestSamples) return false;
+  if (core < window().first + 2 * signals::MotionLaw::kFewestRows) return false;
   const std::size_t turn = std::clamp(static_cast<std::size_t>(window().turn), window().first, core);
   for (std::size_t length = (core - turn) / 2;; length /= 2) {
-    const std::size_t seed = core - std::max(kFewestSamples, length);
+    const std::size_t seed = core - std::max(signals::MotionLaw::kFewestRows, length);
     if (holds(fit(seed, core))) {
       result = fit(grow_back(seed, core), core);
       return true;
     }
-    if (length <= kFewestSamples) return false;
+    if (length <= signals::MotionLaw::kFewestRows) return false;
   }
 }
 

@@ -12,17 +12,17 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kFewestInContact = 12;  ///< samples
-constexpr double kContactShare = 0.6;         ///< of the flight: how far before t1 the contact is looked at
-constexpr double kBracket = 0.6;              ///< of its width, as a standard deviation
-constexpr double kViscousShare = 0.3;         ///< of a load's deceleration at t1, where nothing else is known
+constexpr double kContactShare = 0.6;  ///< of the flight: how far before t1 the contact is looked at
+constexpr double kBracket = 0.6;       ///< of its width, as a standard deviation
+constexpr double kViscousShare = 0.3;  ///< of a load's deceleration at t1, where nothing else is known
 
 /// The motor at t1 as the time before it tells, when the load still went with it.
 MotorState state_in_contact(const MotorTrace& trace, const FlightBegin& begin, double flight) {
   const auto last = static_cast<std::size_t>(std::max(begin.time, 0.0));
-  const std::size_t back = std::max(kFewestInContact, static_cast<std::size_t>(kContactShare * flight));
+  const std::size_t back =
+      std::max(signals::MotionLaw::kFewestRows, static_cast<std::size_t>(kContactShare * flight));
   const std::size_t first = last - std::min(back, last), n = last - first + 1;
-  if (n < kFewestInContact) return begin.motor;
+  if (n < signals::MotionLaw::kFewestRows) return begin.motor;
   const Eigen::MatrixXd A = polynomial_columns(n, 3);
   const Eigen::Vector4d c = signals::least_squares_of(
       A, Eigen::Map<const Eigen::VectorXd>(&trace.x1[first], static_cast<Eigen::Index>(n)));

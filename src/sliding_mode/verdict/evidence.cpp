@@ -1,7 +1,6 @@
 #include "sliding_mode/verdict/evidence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -44,7 +43,7 @@ GapEstimate conclude(GapEvidence e) {
   estimate.events = std::move(e.events);
   estimate.warnings = std::move(e.warnings);
   estimate.reason = e.denies ? e.reading : e.against;
-  if (e.denies) estimate.verdict = GapVerdict::kNone;
+  if (e.denies) estimate.verdict = GapVerdict::kNone, estimate.gap_at_most = e.smallest_visible_gap;
   if (!estimate.reason.empty()) return estimate;
   const double std = e.parts.together(), share = kNormal95 * std / e.gap;
   const double widest = e.quantity == GapQuantity::kGap ? kWidest : kWidestPlay;

@@ -35,7 +35,7 @@ Pool pool_of(std::span<const ImpactAnalysis> analyses, std::span<const double> i
 /// The gap that single passages read: median per direction, mean of both.
 GapEvidence gap_evidence(const Pool& pool);
 
-/// GapEvidence that reads no gap, as a denial where the recordings allow one: one body explains them, and
+/// Evidence that reads no gap, as a denial where the recordings allow one: one body explains them, and
 /// larger gaps would have left more. Else with what they could have shown, where that is the reason.
 /// @param one_body  smallest gap that cannot hide in what one body leaves of any recording [rad]
 GapEvidence denial(const Pool& pool, double one_body, GapEvidence evidence);
