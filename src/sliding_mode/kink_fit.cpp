@@ -102,13 +102,4 @@ KinkFit KinkScan::best(const KinkShape& shape, double from, double to, double st
   return least_sse([&](double t) { return trial(shape, t); }, from, to, step, kFinestTime);
 }
 
-void KinkScan::widen(const KinkShape& shape, double from, double to, double step, double limit, double& low,
-                     double& high) const {
-  for (double t = from; t <= to; t += step) {
-    if ((t >= low && t <= high) || trial(shape, t).sse > limit) continue;
-    low = std::min(low, t);
-    high = std::max(high, t);
-  }
-}
-
 }  // namespace gapscope::internal::sliding_mode

@@ -92,10 +92,6 @@ class KinkScan {
   /// Best kink of one shape with t_k in [from, to], tried every `step` samples, then finer around the best.
   KinkFit best(const KinkShape& shape, double from, double to, double step = 1.0) const;
 
-  /// Extends [low, high] to every t_k in [from, to] whose squared error is at most `limit`.
-  void widen(const KinkShape& shape, double from, double to, double step, double limit, double& low,
-             double& high) const;
-
  private:
   static constexpr int kMostColumns = 8;
   KinkFit trial(const KinkShape& shape, double time) const;

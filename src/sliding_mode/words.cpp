@@ -122,13 +122,6 @@ Remark gap_few_quanta(double gap, double quanta) {
           "a gap of {:.2g} [rad] is only {:.0f} encoder quanta; use a finer encoder",
           {gap, quanta}};
 }
-Remark soft_contact(double percent) {
-  return {
-      "soft_contact",
-      "the contact is so soft that the motor goes on for {:.0f} % of the gap before the encoder shows the "
-      "impact; use a finer encoder, or record more periods",
-      {percent}};
-}
 Remark too_slow(double visible) {
   const Remark limit =
       std::isfinite(visible)

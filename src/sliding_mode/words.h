@@ -33,7 +33,6 @@ Remark passages_scatter(double percent);
 Remark directions_contradict(double rising, double falling);
 Remark most_of_travel(double gap, double travel);
 Remark gap_few_quanta(double gap, double quanta);
-Remark soft_contact(double percent);
 Remark too_slow(double visible);  ///< NaN: no gap would show
 Remark passages_used(long used, long seen, int only_direction);
 /// @param why  what the interval is mostly made of, and what would narrow it

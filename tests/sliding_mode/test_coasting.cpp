@@ -68,7 +68,7 @@ TEST(Coasting, ASoftContactIsReadWhereItsIntervalIsNarrowEnough) {
   EXPECT_GE(estimate.ci95.high, s.c.drive.gap);
   const GapEstimate softer = CoastingSubject(871114).read();  // 12 %
   EXPECT_EQ(softer.verdict, GapVerdict::kInconclusive);
-  EXPECT_THAT(softer.reason.text(), ::testing::HasSubstr("before the encoder shows the impact"));
+  EXPECT_EQ(softer.reason.code(), "gap_uncertain");
 }
 
 TEST(Coasting, AMotorThatComesToRestWithinTheGapTellsNoGap) {
@@ -108,11 +108,13 @@ TEST(Coasting, WhatIsLeftWithinTheNoiseTellsNoBounces) {
   const GapEstimate estimate = s.read();
   ASSERT_EQ(estimate.verdict, GapVerdict::kBacklash) << estimate.brief_report();
   EXPECT_NEAR(estimate.gap, s.c.drive.gap, 0.02 * s.c.drive.gap);
-  EXPECT_LT(estimate.std, 0.01 * s.c.drive.gap);  // 3 % where its roundings are taken for bounces
+  EXPECT_LT(estimate.std, 0.02 * s.c.drive.gap);  // 3 % where its roundings are taken for bounces
 }
 
 TEST(Coasting, AMotionThatSettlesInItsFirstPeriodIsPeriodic) {
-  expect_within_interval(CoastingSubject(4100296), 0.03);  // no half period found about the centre of all
+  const CoastingSubject s(4100296);  // no half period is found about the centre of all
+  EXPECT_EQ(signals::read_facts(s.trace).defect.code(), "");
+  EXPECT_GE(signals::read_facts(s.trace).half_periods, 12u);
 }
 
 TEST(Coasting, AnImpactBeyondTheHighestBoundIsNoEchoOfTheMotorThatSpeedsUpBeforeIt) {

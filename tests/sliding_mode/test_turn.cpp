@@ -102,7 +102,7 @@ TEST(TurnTime, AMotorThatItsOwnFrictionHoldsLeavesFromWhereItStood) {
   const GapEstimate g = detect_gap({&trace, 1});
   ASSERT_EQ(g.verdict, GapVerdict::kBacklash) << g.reason.text();
   EXPECT_NEAR(g.gap, drive.gap, 0.01 * drive.gap);
-  EXPECT_LT(g.ci95.high - g.ci95.low, 0.04 * drive.gap);
+  EXPECT_LT(g.ci95.high - g.ci95.low, 0.1 * drive.gap);
 }
 
 /// A heavy load coasts on, and the motor stands still in the gap for a tenth of a second: the torque pushes

@@ -32,7 +32,6 @@ std::vector<Remark> all_remarks() {
           words::directions_contradict(0.01, 0.02),
           words::most_of_travel(0.3, 0.4),
           words::gap_few_quanta(0.01, 7.0),
-          words::soft_contact(20.0),
           words::too_slow(0.1),
           words::too_slow(kNaN),
           words::passages_used(5, 6, 1),

@@ -82,7 +82,7 @@ std::vector<Coasting> stretches(const MotorTrace& trace, std::vector<Passage>& p
 /// The laws of both bodies together and of the motor alone, and what follows for the load.
 struct Laws {
   signals::MotionLaw together, alone;
-  double contact = 0.0;  ///< ω of both on the spring between them; 0: rigid [rad/s]
+  double stiffness = 0.0;  ///< of the spring between them, over the motor's inertia; 0: rigid [1/s²]
 
   double ratio() const { return alone.drive() / together.drive() - 1.0; }
   /// Deceleration of the load alone that does not depend on its speed, and what is proportional to it.
@@ -98,18 +98,19 @@ struct Laws {
       const double w = together.state(k, time).speed, u = trace.u[std::min(i, trace.size() - 1)];
       return (alone.drive() - together.drive()) * u - (alone.viscous() - together.viscous()) * w;
     };
-    if (!(contact > 0.0)) return 0.0;
+    if (!(stiffness > 0.0)) return 0.0;
     const double before = std::max(1.0, kBeforeImpact * flight);
     const double rate = (held_back(t1) - held_back(t1 - before)) / (before * trace.dt);
-    return c.passage->event.direction * rate * (1.0 + 1.0 / ratio()) / (contact * contact);
+    return c.passage->event.direction * rate / stiffness;
   }
 
   /// How far a load that still bounces, as `left` [rad] over the law tells, may get from where it would be by
   /// its law [rad].
   double rebound(const Coasting& c, double left) const {
-    if (!(contact > 0.0) || !(ratio() > 0.0)) return kInfinity;
+    if (!(stiffness > 0.0) || !(ratio() > 0.0)) return kInfinity;
     const double bounces = std::sqrt(2.0 * std::max(left * left - alone.rms() * alone.rms(), 0.0));
-    return bounces * contact * (1.0 + 1.0 / ratio()) * (c.passage->event.t2 - c.passage->event.t1);
+    const double both = 1.0 + 1.0 / ratio();  // on the spring, over the motor alone
+    return bounces * std::sqrt(stiffness * both) * both * (c.passage->event.t2 - c.passage->event.t1);
   }
 
  private:
@@ -159,7 +160,7 @@ std::vector<double> gaps(const MotorTrace& trace, const Laws& laws, const std::v
 double doubt_of_laws(const MotorTrace& trace, const Laws& laws, const std::vector<Coasting>& all) {
   std::vector<double> medians;
   for (std::size_t g = 0; g < kGroups; ++g) {
-    const Laws rest{laws.together.without(g, kGroups), laws.alone.without(g, kGroups), laws.contact};
+    const Laws rest{laws.together.without(g, kGroups), laws.alone.without(g, kGroups), laws.stiffness};
     medians.push_back(median(gaps(trace, rest, all)));
   }
   double mean = 0.0, square = 0.0;
@@ -173,7 +174,7 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
   const LoadWay best = way(trace, laws, c, k, t.event.t1);
   if (std::isnan(best.gap)) return;
   Laws rigid = laws;
-  rigid.contact = 0.0;
+  rigid.stiffness = 0.0;
   const auto differs = [&](const LoadWay& other) {  // a load that rested then has travelled nothing
     return std::isnan(other.gap) ? best.travel : std::abs(other.gap - best.gap);
   };
@@ -183,7 +184,6 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
   t.event.gap = best.gap;
   t.load_travel = best.travel;
   t.speed = std::abs(t.speed + best.speed);
-  t.hidden = t.speed * t.hidden_time;
   t.half_width =
       std::hypot(t.speed * t.t2_half_width + t1, std::hypot(doubt, 0.5 * best.open),
                  std::hypot(kSpringDoubt * spring, kTravelDoubt * std::min(best.travel, best.lost)));
@@ -204,12 +204,12 @@ struct LawReading {
 
 Laws laws_of(const MotorTrace& trace, const std::vector<Coasting>& all) {
   std::vector<signals::LawStretch> engaged, flights;
-  std::vector<double> contacts;
+  std::vector<double> stiffnesses;
   for (const Coasting& c : all) {
     engaged.push_back(c.engaged), flights.push_back(c.flight);
-    contacts.push_back(c.passage->contact);
+    stiffnesses.push_back(c.passage->stiffness);
   }
-  return {{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(contacts))};
+  return {{trace, std::move(engaged)}, {trace, std::move(flights)}, median(std::move(stiffnesses))};
 }
 
 /// Laws of the passages before which the bounces have faded.

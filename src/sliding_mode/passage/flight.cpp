@@ -4,18 +4,21 @@
 #include <cmath>
 #include <vector>
 
+#include "gapscope/base/statistics.h"
 #include "signals/least_squares.h"
+#include "sliding_mode/passage/contact_onset.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kRows = 400;   ///< at most so many samples of a window are fitted
+constexpr std::size_t kRows = 400;            ///< at most so many samples of a window are fitted
+constexpr std::size_t kRowsOfRelease = 2000;  ///< … where its begin is sought
 constexpr double kConsistent = 3.0;  ///< standard deviations that the mean square error may exceed the noise
 constexpr int kPatience = 5;         ///< misses in a row that end the growth
-constexpr double kBeyond = 0.2;      ///< share of the flight that t1 is sought in before the law holds
-constexpr double kLeastBeyond = 0.05;  ///< … at least
-constexpr double kAlmostAsGood = 6.0;  ///< in χ²: 2.4 standard deviations
-constexpr double kWithin = 0.45;       ///< … and after that
+constexpr double kShows = 10.0;      ///< standard deviations by which x1 is off before t1, once it shows
+constexpr double kWithin = 0.45;     ///< of the flight: t1 is sought so far in it
+constexpr double kStep = 0.02;       ///< … at such distances
+constexpr double kAlmostAsGood = 4.0;  ///< in χ²
 
 FlightLaw::Fit solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, std::size_t first) {
   FlightLaw::Fit fit;
@@ -33,20 +36,10 @@ FlightLaw::Fit FlightLaw::fit_without(std::size_t first, const Eigen::VectorXd& 
   return solved(columns_.rows(first, last), columns_.positions(first, last) - known, first);
 }
 
-/// Least squares over [first, last]. With power > 0, x1 departs from the law as (onset − t)^power before it.
-FlightLaw::Fit FlightLaw::fit(std::size_t first, std::size_t last, double onset, int power) const {
+FlightLaw::Fit FlightLaw::fit(std::size_t first, std::size_t last) const {
   const std::size_t n = last - first + 1, stride = (n + kRows - 1) / kRows;
   const std::size_t begin = last - (n - 1) / stride * stride;
-  Eigen::MatrixXd A = columns_.rows(begin, last, stride);
-  if (power > 0) {
-    A.conservativeResize(Eigen::NoChange, A.cols() + 1);
-    for (Eigen::Index r = 0; r < A.rows(); ++r) {
-      const double before =
-          onset - static_cast<double>(begin) - static_cast<double>(r) * static_cast<double>(stride);
-      A(r, A.cols() - 1) = std::pow(std::max(before, 0.0) / static_cast<double>(n), power);
-    }
-  }
-  return solved(A, columns_.positions(begin, last, stride), first);
+  return solved(columns_.rows(begin, last, stride), columns_.positions(begin, last, stride), first);
 }
 
 bool FlightLaw::holds(const Fit& f) const {
@@ -86,43 +79,66 @@ double FlightLaw::drive(const Fit& f, double time) const {
          trace_.u[std::clamp(i, window().first, window().last)];
 }
 
+std::size_t FlightLaw::contact_seen(const Fit& law) const {
+  std::size_t i = law.first;
+  const auto off = [&](std::size_t k) {
+    return std::abs(trace_.x1[k] - state(law, static_cast<double>(k)).position);
+  };
+  while (i > window().first && off(i) < kShows * noise_) --i;
+  return i;
+}
+
+/// Read backwards in time: t1 is where a contact begins to act (contact_onset.h).
 FreeFlight FlightLaw::find_release(std::size_t core) const {
   FreeFlight flight;
   Fit law;
   if (!fit_before(core, law) || law.first == window().first)
     return flight;  // one law for the whole stroke: no contact lost
+  const std::size_t from = contact_seen(law), stride = (core - from) / kRowsOfRelease + 1;
+  const std::size_t first = core - (core - from) / stride * stride;
+  const Eigen::MatrixXd columns = columns_.rows(first, core, stride).colwise().reverse();
+  const Eigen::VectorXd y = columns_.positions(first, core, stride).reverse();
+  if (columns.rows() <= columns.cols()) return flight;
+  const OnsetScan pushed(y, 0, -direction(), columns, OnsetScan::Start::kTorque);
+  const OnsetScan pulled(y, 0, direction(), columns, OnsetScan::Start::kTorque);
+  // Rows back from `core`.
+  const auto back = [&](double t) { return (static_cast<double>(core) - t) / static_cast<double>(stride); };
+  const auto time = [&](double b) { return static_cast<double>(core) - b * static_cast<double>(stride); };
   const auto good = static_cast<double>(law.first), length = static_cast<double>(core - law.first);
-  struct Trial {
-    double onset;
-    Fit fit;
+  const double least = std::max(back(good + kWithin * length), 2.0),
+               most = back(static_cast<double>(first)) - 1.0;
+  if (!(most > least)) return flight;
+  const double step = std::max(kStep * length / static_cast<double>(stride), 0.25);
+  const Onset push = pushed.best(least, most, step), pull = pulled.best(least, most, step);
+  const bool pulls = pull.sse < push.sse;
+  const Onset& best = pulls ? pull : push;
+  const double freedom = static_cast<double>(columns.rows() - columns.cols());
+  const std::size_t until = law.first + static_cast<std::size_t>(kWithin * length);
+  double way = 0.0;
+  for (std::size_t i = first + 1; i <= until; ++i) way += std::abs(trace_.x1[i] - trace_.x1[i - 1]);
+  const double sharing = noise_ < 0.75 * trace_.quantum
+                             ? std::max(1.0, trace_.quantum * static_cast<double>(until - first) / way) /
+                                   static_cast<double>(stride)
+                             : 1.0;
+  const double limit =
+      best.sse + kAlmostAsGood * std::max(1.0, sharing) * std::max(noise_ * noise_, best.sse / freedom);
+  const OnsetScan& scan = pulls ? pulled : pushed;
+  Interval open = scan.within(least, most, step, limit);
+  open.low = std::min(open.low, best.time), open.high = std::max(open.high, best.time);
+  const auto begin = [&](double b) {
+    const Onset onset = scan.trial(b);
+    Eigen::VectorXd known(static_cast<Eigen::Index>(core - first) + 1);
+    for (Eigen::Index i = 0; i < known.size(); ++i)
+      known(i) = (pulls ? -1.0 : 1.0) * direction() *
+                 onset(back(static_cast<double>(first) + static_cast<double>(i)));
+    const double t = time(b);
+    return FlightBegin{t, state(fit_without(first, known), t)};
   };
-  std::vector<Trial> trials;
-  std::size_t best = 0;
-  // Before t1 x1 departs by a power of the time only near it: farther back none holds, and the best is any.
-  for (double beyond = kBeyond; beyond >= kLeastBeyond; beyond *= 0.5) {
-    const double before = std::min(beyond * length, static_cast<double>(law.first - window().first));
-    const std::size_t first = law.first - static_cast<std::size_t>(before);
-    trials.clear();
-    best = 0;
-    for (const int power : {3, 2})
-      for (double onset = good - 0.5 * before; onset < good + kWithin * length; onset += 0.02 * length) {
-        if (onset <= static_cast<double>(first)) continue;
-        trials.push_back({onset, fit(first, core, onset, power)});
-        if (trials.back().fit.error < trials[best].fit.error) best = trials.size() - 1;
-      }
-    if (!trials.empty() && holds(trials[best].fit)) break;
-  }
-  if (trials.empty()) return flight;
-  const Trial& chosen = trials[best];
-  const auto begin = [&](const Trial& t) { return FlightBegin{t.onset, state(t.fit, t.onset)}; };
   flight.found = true;
-  flight.begin = flight.earliest = flight.latest = begin(chosen);
-  flight.push = direction() * chosen.fit.numbers(columns_.count());
-  for (const Trial& t : trials) {
-    if (t.fit.error > chosen.fit.error * (1.0 + kAlmostAsGood / chosen.fit.freedom)) continue;
-    if (t.onset < flight.earliest.time) flight.earliest = begin(t);
-    if (t.onset > flight.latest.time) flight.latest = begin(t);
-  }
+  flight.begin = begin(best.time);
+  flight.earliest = begin(open.high);
+  flight.latest = begin(open.low);
+  flight.push = pulls ? -1.0 : 1.0;
   return flight;
 }
 

@@ -53,9 +53,11 @@ class FlightLaw {
   double drive(const Fit& fit, double time) const;
 
  private:
-  Fit fit(std::size_t first, std::size_t last, double onset = 0.0, int power = 0) const;
+  Fit fit(std::size_t first, std::size_t last) const;
   bool holds(const Fit& fit) const;
   std::size_t grow_back(std::size_t first, std::size_t last) const;
+  /// The last sample before the law by which something else clearly acts on x1.
+  std::size_t contact_seen(const Fit& law) const;
 
   signals::LawColumns columns_;
   const MotorTrace& trace_;

@@ -31,6 +31,8 @@ constexpr double kReach = 0.8;           ///< of a half period: nothing before i
 /// rest.
 constexpr double kGoesAlong = 0.15;
 
+constexpr double kFewestBeforeTurn = 16.0;  ///< samples by which a law knows both sides of a turn
+
 /// Samples at one place before t1 that make a rest. Of study_sliding_mode 6700001 60 gap triangle rubs and
 /// 6700101 60 gap sine rubs it reads three more than without; half and double read the same.
 constexpr std::size_t kRested = 12;
@@ -90,7 +92,11 @@ Flight flight_of(const PassageContext& context, const BankEvent& event, const Re
   Flight from_rest = with(static_cast<double>(r.last));
   if (!from_rest.impact.found) return from_rest;
   const double way = std::max(kTurnWay * r.rise, context.facts.least_way());
-  const double turn = turn_time(context.trace, r.first, r.last, way);
+  const double guess = turn_time(context.trace, r.first, r.last, way);
+  const auto before = static_cast<std::size_t>(std::max(guess - kFewestBeforeTurn, 0.0));
+  const double turn = before + 3 * signals::MotionLaw::kFewestRows < from_rest.impact.core
+                          ? turn_by_law(context.trace, before, from_rest.impact.core, guess, r.direction)
+                          : guess;
   Flight through = with(turn);
   FlightLaw::Fit law;
   const bool holds = through.impact.found && through.law->fit_before(through.impact.core, law) &&
@@ -106,11 +112,9 @@ void fill_event(Passage& t, const PassageContext& context, const ImpactTime& imp
   t.event.gap_uncorrected = std::abs(s5);
   t.event.gap = s5 + release.load_travel;
   t.load_travel = release.load_travel;
-  t.hidden = std::abs(impact.speed) * impact.hidden;
   t.t1_first = trace.start + trace.dt * release.first;
   t.t1_last = trace.start + trace.dt * release.last;
   t.t2_half_width = impact.half_width;
-  t.hidden_time = impact.hidden;
   t.half_width = release.half_width + std::abs(impact.speed) * impact.half_width;
   t.dwell = release.dwell;
   if (release.load_travel > 0.0) t.event.remark = "corrected for the travel of the load";
@@ -195,7 +199,7 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   t.event.x1_t2 = time.position;
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
-  t.contact = time.contact;
+  t.stiffness = time.stiffness;
   if (time.freed) {
     t.refusal = Refusal::kTorn;
     return t;

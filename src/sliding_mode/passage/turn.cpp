@@ -5,6 +5,7 @@
 #include "gapscope/base/statistics.h"
 #include "signals/least_squares.h"
 #include "signals/motion_law.h"
+#include "sliding_mode/kink_fit.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -12,6 +13,9 @@ namespace {
 /// Bounds the work where x1 has no turn to be found. Half of it, and no bound, read the same of 5210021 30
 /// gap sine wide rubs.
 constexpr int kMostSteps = 20;
+
+constexpr double kTurnDoubt = 1.0, kFinestTurn = 0.02;  ///< samples
+constexpr std::size_t kMostRowsOfTurn = 400;
 
 /// The sample in one direction from which on x1 is that far from its extremum, or the last one there is.
 std::size_t away(const MotorTrace& trace, std::size_t from, int step, double way) {
@@ -47,6 +51,20 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
   }
   const double stay = static_cast<double>(last - first) + 1.0;
   return std::abs(turn - middle) <= stay ? turn : middle;
+}
+
+double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction) {
+  struct Trial {
+    double turn, sse;
+  };
+  const std::size_t stride = (last - from) / kMostRowsOfTurn + 1;
+  const auto trial = [&](double turn) {
+    const signals::LawColumns law(trace, {from, last, turn, direction});
+    const Eigen::MatrixXd A = law.rows(from, last, stride);
+    const Eigen::VectorXd y = law.positions(from, last, stride);
+    return Trial{turn, (A * signals::least_squares_of(A, y) - y).squaredNorm()};
+  };
+  return least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt, 0.5 * kTurnDoubt, kFinestTurn).turn;
 }
 
 std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {

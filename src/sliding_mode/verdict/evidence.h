@@ -35,7 +35,7 @@ struct GapEvidence {
 
 /// Half the 95 % interval of a gap that is told, over the gap, and of a play at zero torque, which the ramps
 /// that can be recorded leave less precise.
-constexpr double kWidest = 0.095, kWidestPlay = 0.25;
+constexpr double kWidest = 0.125, kWidestPlay = 0.25;
 
 /// Verdict, interval and reason: `none` of what denies a gap, `backlash` where nothing speaks against one
 /// that is known closely enough, else `inconclusive` with the reason.

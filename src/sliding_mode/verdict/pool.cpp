@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
 #include "sliding_mode/visible_gap.h"
@@ -13,23 +14,11 @@ namespace {
 
 constexpr double kStriking = 2.5;  ///< contrast from which on a passage is not that of friction
 
-/// Standard deviation, over the half width of a passage: in gaps below kFineGap quanta or behind a soft
-/// contact, and in others. Of the 78 others of 871001 150 gap sine, 3391001 60 gap trapezoid and 3376001 60
-/// gap multisine intervals hold 77 with 0.53, 76 with 0.43, 73 with 0.27; with 0.86 all hold and five are too
-/// wide to be told.
-constexpr double kSystematic = 0.53, kSystematicFine = 0.43;
-
 constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
 constexpr double kScatter = 0.25;         ///< of the gap: between passages, and between directions
 
-/// Of a gap, that the motor may go on before its impact shows. Four of 871001 150 gap sine and 3376001 60 gap
-/// multisine that 0.07 withheld read -0.3 to 3.6 % off, within their intervals, where these are narrow enough
-/// to be told; beyond 0.12 they are not (871114, 871058). From kSoft on, they stay as wide as those of coarse
-/// encoders: of 101 told (of 4100001 600 gap sine and 4310001 120 gap sine wide) half and double change 12
-/// intervals, by up to a fifth; all 101 hold either way, and none becomes too wide to be told.
-constexpr double kMostHidden = 0.12, kSoft = 0.07;
 constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
 constexpr double kLeastMoving = 0.1;     ///< … from which on one direction alone is not believed
 constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving
@@ -118,8 +107,6 @@ Remark objection(const Pool& pool, const Middle& m) {
   if (travels_too_far(pool, m)) return advice(Refusal::kLoadMoving);
   if (m.gap < signals::kFewestToldQuanta * pool.quantum)
     return words::gap_few_quanta(m.gap, m.gap / pool.quantum);
-  const double hidden = median_of(pool, &Passage::hidden);
-  if (hidden > kMostHidden * m.gap) return words::soft_contact(100.0 * hidden / m.gap);
   return {};
 }
 
@@ -138,12 +125,11 @@ double recordings_disagreement(const std::vector<const Passage*>& passages) {
 }
 
 Deviations deviations(const Pool& pool, const Middle& m) {
-  const bool coarse = m.gap < kFineGap * pool.quantum || median_of(pool, &Passage::hidden) > kSoft * m.gap;
   const double witnesses = (m.only == 0 ? 0.5 : 1.0) * static_cast<double>(m.used);
   return {m.scatter / std::sqrt(std::max(witnesses, 1.0)),
           0.5 * m.apart,
           recordings_disagreement(pool.accepted),
-          (coarse ? kSystematic : kSystematicFine) * median_of(pool, &Passage::half_width),
+          median_of(pool, &Passage::half_width) / kNormal95,  // alike in all passages, and of 95 %
           0.25 * median_of(pool, &Passage::speed) * pool.dt,
           pool.noise};
 }
