@@ -230,12 +230,14 @@ Json detector_schema() {
   detector.add("bound", one_of({words_schema({"auto"}, ""), number_schema({1e-9, 1e12, "rad/s^2"}, ""),
                                 from.schema("")},
                                "L, a bound of the motor's acceleration; auto: from the data alone"));
-  detector.add("method",
-               words_schema({"auto", "impact", "lost_motion", "paper"},
-                            "auto: the loop or the impacts, whichever reads; paper: S1 to S6 at a bound"));
+  detector.add(
+      "method",
+      words_schema({"auto", "impact", "lost_motion", "paper", "literal"},
+                   "auto: the loop or the impacts, whichever reads; literal: S1 to S6 as printed at a "
+                   "bound; paper: the same, improved"));
   Json schema = detector.schema("the model-free estimator");
   const Json bound = {{"allOf", {having("bound"), none_of({having("bound", being("auto"))})}}};
-  add_rule(where(having("method", being("paper")), bound), schema);
+  add_rule(where(having("method", {{"enum", {"paper", "literal"}}}), bound), schema);
   add_rule(where(having("method", {{"enum", {"impact", "lost_motion"}}}), none_of({bound})), schema);
   return schema;
 }

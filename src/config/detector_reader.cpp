@@ -24,14 +24,17 @@ void read_bound(const Value& bound, DetectorConfig& detector) {
   }
 }
 
-/// `method:` agrees with the bound: `paper` needs one, the others take theirs from the data.
+/// `method:` agrees with the bound: `paper` and `literal` need one, the others take theirs from the data.
 void require_bound_for_method(const Value& method, const DetectorConfig& detector) {
   const bool given = detector.bound || detector.from_model;
-  if (detector.method == DetectorMethod::kPaper && !given)
-    method.fail(
-        "is paper without a bound, expected bound: a number [rad/s^2] or {from_model: ...} beside it");
-  if (detector.method != DetectorMethod::kAuto && detector.method != DetectorMethod::kPaper && given)
-    method.fail(fmt::format("is {} beside a bound, expected paper or bound: auto", method.text()));
+  const bool needed =
+      detector.method == DetectorMethod::kPaper || detector.method == DetectorMethod::kLiteral;
+  if (needed && !given)
+    method.fail(fmt::format(
+        "is {} without a bound, expected bound: a number [rad/s^2] or {{from_model: ...}} beside it",
+        method.text()));
+  if (detector.method != DetectorMethod::kAuto && !needed && given)
+    method.fail(fmt::format("is {} beside a bound, expected paper, literal or bound: auto", method.text()));
 }
 
 }  // namespace
@@ -42,7 +45,8 @@ DetectorConfig read_detector(const Value& value) {
   detector.line = value.line();
   if (const auto bound = section.find("bound")) read_bound(*bound, detector);
   if (const auto method = section.find("method")) {
-    detector.method = static_cast<DetectorMethod>(method->word({"auto", "impact", "lost_motion", "paper"}));
+    detector.method =
+        static_cast<DetectorMethod>(method->word({"auto", "impact", "lost_motion", "paper", "literal"}));
     require_bound_for_method(*method, detector);
   }
   return detector;

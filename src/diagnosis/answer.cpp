@@ -53,6 +53,10 @@ Answer from_model_free(const Findings& f, AnswerTrust trust) {
   const GapEstimate& g = *f.model_free;
   Answer a{g.gap, g.ci95, AnswerSource::kModelFree, trust, "", {}};
   a.sentence = the_gap_is() + with_interval(g.gap, g.ci95, f.coordinates) + ", measured without a model";
+  if (g.method == GapMethod::kLiteral)
+    a.sentence +=
+        fmt::format(", by S1 to S6 of the source paper with L = {:.3g} {}, whose passages scatter by {}",
+                    g.bound, f.coordinates.shown_unit("rad/s^2"), f.coordinates.thousandths(g.std));
   if (g.method == GapMethod::kPaper)
     a.sentence += fmt::format(", with the bound that was given (L = {:.3g} {})", g.bound,
                               f.coordinates.shown_unit("rad/s^2"));
@@ -89,8 +93,21 @@ std::string end_without_model(const Findings& f) {
   return "; the fitted model is rejected. " + f.reference->why.text();
 }
 
+/// The paper's steps claim no interval, so a fit that tells one comes first.
+Answer as_printed(const Findings& f, const FittedParameter* gap) {
+  Answer reading = from_model_free(f, AnswerTrust::kLimited);
+  if (gap == nullptr) {
+    reading.sentence += end_without_model(f);
+    return reading;
+  }
+  Answer a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+  a.sentence += "; S1 to S6 of the source paper read " + f.coordinates.thousandths(f.model_free->gap) + ".";
+  return a;
+}
+
 Answer read(const Findings& f) {
   const FittedParameter* gap = told_gap(f);
+  if (f.model_free->method == GapMethod::kLiteral) return as_printed(f, gap);
   if (gap != nullptr && f.agree) return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
   Answer a = from_model_free(f, AnswerTrust::kGood);
   a.sentence += end_without_model(f);
@@ -243,7 +260,7 @@ std::string step_of_held_gap(const Findings& f) {
   if (gap == nullptr || gap->estimated || f.model_free == nullptr || is_good(f)) return "";
   const GapEstimate& g = *f.model_free;
   if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap) return "";
-  if (g.ci95.low <= gap->value && gap->value <= g.ci95.high) return "";
+  if (std::isnan(g.ci95.low) || (g.ci95.low <= gap->value && gap->value <= g.ci95.high)) return "";
   return fmt::format(
       "Let the fit find the gap (gap: {{estimate: true}}): the configuration holds it at {}, and without a "
       "model it reads {}.",

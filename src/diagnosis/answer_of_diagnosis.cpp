@@ -60,6 +60,10 @@ Answer beside_reading(Answer a, const Answer& reading, Coordinates coordinates) 
   const bool agree = a.ci95.low <= reading.ci95.high && reading.ci95.low <= a.ci95.high;
   a.sentence.pop_back();
   const std::string read = told_with(reading.gap, reading.ci95, coordinates);
+  if (std::isnan(reading.ci95.low)) {  // S1 to S6 as printed claim no interval
+    a.sentence += "; S1 to S6 of the source paper read " + read + ".";
+    return a;
+  }
   a.sentence += agree ? "; the reading without a model, " + read + ", agrees."
                       : ", but without a model it reads " + read + ".";
   if (!agree) a.trust = AnswerTrust::kLimited;

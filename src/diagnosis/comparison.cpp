@@ -14,6 +14,7 @@ Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
   // A gap of another quantity (play at zero torque) is not what the reference fits.
   if (model_free.quantity != GapQuantity::kGap) return c;
   c.difference = model_free.gap - gap->value;
+  if (model_free.method == GapMethod::kLiteral) return c;  // a scatter is no error of the mean
   if (!gap->identifiable || !std::isfinite(gap->std) || !std::isfinite(model_free.std)) return c;
   c.joint_std = std::hypot(model_free.std, gap->std);
   c.agree = std::abs(c.difference) <= kNormal95 * c.joint_std;

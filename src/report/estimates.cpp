@@ -42,6 +42,8 @@ void add_model_free(const ReportView& view, Panel& panel) {
   if (!view.run.model_free) return;
   const GapEstimate& g = *view.run.model_free;
   std::string remark = plus_minus(g.gap, g.ci95, view.length_unit);
+  if (std::isfinite(g.gap) && g.method == GapMethod::kLiteral)
+    remark += ", scatter " + quantity(g.std, view.length_unit);
   if (g.verdict == GapVerdict::kInconclusive) remark = "inconclusive";
   if (g.verdict == GapVerdict::kNone) remark = "none above " + quantity(g.none_above(), view.length_unit);
   const LostMotion& m = g.lost_motion;

@@ -38,7 +38,8 @@ Observation model_free(const DriveReport& report, GapQuantity quantity) {
   if (g.quantity != quantity)
     return untold(
         fmt::format("{} was read", quantity == GapQuantity::kGap ? "the play at zero torque" : "the gap"));
-  return told(g.gap, g.std, g.ci95);
+  const bool scatter = g.method == GapMethod::kLiteral;  // which is no error of the mean
+  return told(g.gap, scatter ? kNaN : g.std, g.ci95);
 }
 
 Observation fitted(const DriveReport& report, const std::string& key) {

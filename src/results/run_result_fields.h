@@ -90,6 +90,7 @@ void fields(Archive& archive, GapEstimate& g) {
   archive.choice("method", g.method,
                  Words<GapMethod>{{GapMethod::kImpact, "impact"},
                                   {GapMethod::kPaper, "paper"},
+                                  {GapMethod::kLiteral, "literal"},
                                   {GapMethod::kLostMotion, "lost_motion"}});
   archive.choice("quantity", g.quantity,
                  Words<GapQuantity>{{GapQuantity::kGap, "gap"},

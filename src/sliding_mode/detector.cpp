@@ -73,12 +73,21 @@ GapEstimate detect_paper(const Inputs& in, std::span<const ImpactAnalysis> analy
   return estimate;
 }
 
-/// Both readings are of the motor's way through the gap, in which the load takes no part.
+/// Nothing is added, not even what a loop of x1 over u says.
+GapEstimate detect_as_printed(const Inputs& in, const DetectorOptions& options) {
+  GapEstimate estimate =
+      internal::sliding_mode::read_recordings_as_printed(in.recordings, in.facts, options.bound);
+  keep_figures(in, options.bound, options, estimate);
+  return estimate;
+}
+
+/// All readings are of the motor's way through the gap, in which the load takes no part.
 GapEstimate nothing_from_load(const DetectorOptions& options) {
   GapEvidence none;
   if (options.method == DetectorMethod::kLostMotion)
     none.method = GapMethod::kLostMotion, none.quantity = GapQuantity::kPlayAtZeroTorque;
   if (options.bound > 0.0) none.method = GapMethod::kPaper;
+  if (options.method == DetectorMethod::kLiteral) none.method = GapMethod::kLiteral;
   none.against = words::encoder_on_load();
   return internal::sliding_mode::conclude(std::move(none));
 }
@@ -86,7 +95,7 @@ GapEstimate nothing_from_load(const DetectorOptions& options) {
 }  // namespace
 
 const char* to_string(DetectorMethod method) {
-  constexpr std::array kWords{"auto", "impact", "lost_motion", "paper"};
+  constexpr std::array kWords{"auto", "impact", "lost_motion", "paper", "literal"};
   return kWords[static_cast<std::size_t>(method)];
 }
 
@@ -94,6 +103,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   if (options.encoder == EncoderSide::kLoad) return nothing_from_load(options);
   Inputs in{recordings, {}};
   for (const MotorTrace& recording : recordings) in.facts.push_back(internal::signals::read_facts(recording));
+  if (options.method == DetectorMethod::kLiteral) return detect_as_printed(in, options);
   const LoopSearch loops = internal::sliding_mode::read_lost_motion(recordings, in.facts);
   std::vector<ImpactAnalysis> analyses;
   const bool only_loop = options.method == DetectorMethod::kLostMotion, paper = options.bound > 0.0;

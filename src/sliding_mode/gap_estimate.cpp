@@ -27,6 +27,8 @@ const char* to_string(GapMethod method) {
       return "impact";
     case GapMethod::kPaper:
       return "paper";
+    case GapMethod::kLiteral:
+      return "literal";
     case GapMethod::kLostMotion:
       return "lost_motion";
   }
@@ -69,6 +71,9 @@ double GapEstimate::none_above() const { return std::fmin(smallest_visible_gap, 
 std::string GapEstimate::brief_report() const {
   switch (verdict) {
     case GapVerdict::kBacklash:
+      if (std::isnan(ci95.low))
+        return fmt::format("backlash: gap {:.4g} rad, passages scatter by {:.2g} rad ({})", gap, std,
+                           reason.text());
       return fmt::format("backlash: {} {:.4g} rad, 95 % interval [{:.4g}, {:.4g}] rad ({})",
                          quantity == GapQuantity::kGap ? "gap" : "play at zero torque", gap, ci95.low,
                          ci95.high, reason.text());

@@ -83,6 +83,7 @@ Remark bound_below_engaged();
 Remark flank_late(double percent);
 Remark passages_contradict();
 Remark reversals_read(double read, double half_periods, double bound);
+Remark passages_as_printed(double read, double half_periods, double bound);
 Remark paper_bound_misses(double bound, const Remark& reason);
 Remark auto_reads();                                    ///< added to another
 Remark nothing_reads(const Remark& why_not_auto);       ///< added to another

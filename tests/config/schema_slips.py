@@ -221,6 +221,7 @@ BY_HAND = [
                       [{"motor_coulomb_friction": {"level": 0.1}}], [{"motor_coulomb_friction": {"level_nm": -0.1}}])],
     *[(RECORDED, ("detector", detector))
       for detector in ({"method": "paper"}, {"method": "paper", "bound": 40}, {"method": "paper", "bound": "auto"},
+                       {"method": "literal"}, {"method": "literal", "bound": 40}, {"method": "literal", "bound": "auto"},
                        {"method": "impact", "bound": 40}, {"method": "lost_motion", "bound": "auto"}, {"bound": 0}, {"bound": -4},
                        {"frozen": True}, {"bound": {"from_model": {"input_limit": 0.5, "load_force_bound": 0}}},
                        {"bound": {"from_model": {"input_limit": 0.5}}}, {"bound": {}}, {"method": "magic"}, {})],

@@ -11,16 +11,18 @@ enum class DetectorMethod {
   kAuto,        ///< impacts; where they tell no gap, the lost-motion loop
   kImpact,      ///< impacts alone
   kLostMotion,  ///< the lost-motion loop alone
-  kPaper,       ///< one e_x with a bound that is given
+  kPaper,       ///< one e_x with a bound that is given: the source paper's method, improved
+  kLiteral,     ///< one e_x with a bound that is given: S1 to S6 as printed, nothing else
 };
 
-const char* to_string(DetectorMethod method);  ///< "auto", "impact", "lost_motion", "paper": the YAML's words
+const char* to_string(
+    DetectorMethod method);  ///< the YAML's words: "auto", "impact", "lost_motion", "paper", "literal"
 
 struct DetectorOptions {
   DetectorMethod method = DetectorMethod::kAuto;
   EncoderSide encoder = EncoderSide::kMotor;
   bool locked = false;  ///< the output is declared not to move, so its load cannot rest or coast
-  double bound = 0.0;   ///< L [rad/s²] for the paper's own S3 and S4 on one e_x; 0: `auto`, a bank of bounds
+  double bound = 0.0;   ///< L [rad/s²] of the one e_x of kPaper and kLiteral; 0: `auto`, a bank of bounds
   /// Lower end of (13) where a model gave one, for the warning only [rad/s²]; 0: unknown.
   double paper_bound = 0.0;
 };

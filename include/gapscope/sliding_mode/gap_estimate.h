@@ -10,7 +10,7 @@
 namespace gapscope {
 
 enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
-enum class GapMethod { kImpact, kPaper, kLostMotion };
+enum class GapMethod { kImpact, kPaper, kLiteral, kLostMotion };
 enum class GapQuantity { kGap, kPlayAtZeroTorque };
 
 /// What a lost motion consists of, as far as the loops tell.
@@ -22,7 +22,7 @@ enum class LostMotionCause {
 };
 
 const char* to_string(GapVerdict verdict);     ///< "not_run", "backlash", "none", "inconclusive"
-const char* to_string(GapMethod method);       ///< "impact", "paper", "lost_motion"
+const char* to_string(GapMethod method);       ///< "impact", "paper", "literal", "lost_motion"
 const char* to_string(GapQuantity quantity);   ///< "gap", "play_at_zero_torque"
 const char* to_string(LostMotionCause cause);  ///< "not_read", "gap", "friction_and_compliance", "open"
 
@@ -88,8 +88,8 @@ struct GapEstimate {
   GapMethod method = GapMethod::kImpact;
   GapQuantity quantity = GapQuantity::kGap;
   double gap = kNaN;                   ///< 2β̂ [rad]; NaN unless the verdict is kBacklash
-  double std = kNaN;                   ///< [rad]
-  Interval ci95;                       ///< [rad]
+  double std = kNaN;                   ///< of the estimate; by kLiteral the scatter of its passages [rad]
+  Interval ci95;                       ///< [rad]; kLiteral claims none
   double smallest_visible_gap = kNaN;  ///< [rad], for loads that the reason names; always there for kNone
   double gap_at_most = kNaN;           ///< no gap is larger [rad]; NaN: no such bound is known
   double bound = kNaN;                 ///< L that decided t2 [rad/s²]
@@ -105,6 +105,7 @@ struct GapEstimate {
   /// No gap is larger, where the verdict denies one: what binds most of what would have shown and what the
   /// loop of the smallest torque leaves room for [rad].
   double none_above() const;
+  bool by_one_bound() const { return method == GapMethod::kPaper || method == GapMethod::kLiteral; }
   std::string brief_report() const;  ///< one line: log, command line
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sliding_mode/marks/marks.h"
+#include "sliding_mode/published/literal_method.h"
 #include "sliding_mode/published/paper_method.h"
 #include "sliding_mode/words.h"
 
@@ -15,6 +16,14 @@ GapEstimate read_recordings_with_bound(std::span<const MotorTrace> recordings,
   for (std::size_t i = 0; i < recordings.size(); ++i)
     readings.push_back(read_with_bound(recordings[i], facts[i], bound));
   return decide_with_bound(facts, readings);
+}
+
+GapEstimate read_recordings_as_printed(std::span<const MotorTrace> recordings,
+                                       std::span<const signals::SignalFacts> facts, double bound) {
+  std::vector<std::vector<GapEvent>> passages(recordings.size());
+  for (std::size_t i = 0; i < recordings.size(); ++i)
+    if (facts[i].defect.empty()) passages[i] = passages_as_printed(recordings[i], facts[i], bound);
+  return mean_as_printed(facts, passages, bound);
 }
 
 Remark bounds_to_try(std::span<const MotorTrace> recordings, std::span<const signals::SignalFacts> facts) {

@@ -26,6 +26,10 @@ Remark passages_contradict() {
 Remark reversals_read(double read, double half_periods, double bound) {
   return {"reversals_read", "{:.0f} of {:.0f} reversals read with L = {:.3g}", {read, half_periods, bound}};
 }
+Remark passages_as_printed(double read, double half_periods, double bound) {
+  const char* const text = "S1 to S6 as printed with L = {:.3g}: a passage in {:.0f} of {:.0f} half periods";
+  return {"passages_as_printed", text, {bound, read, half_periods}};
+}
 Remark paper_bound_misses(double bound, const Remark& reason) {
   const char* const text =
       "the bound of the source paper's eq. (13), one e_x with L = {:.3g} [rad/s²], would have missed the "
