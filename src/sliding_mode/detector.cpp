@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sliding_mode/bound_map.h"
+#include "sliding_mode/drawn_bound.h"
 #include "sliding_mode/impact_search.h"
 #include "sliding_mode/kept_traces.h"
 #include "sliding_mode/published/one_bound.h"
@@ -117,7 +118,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   internal::sliding_mode::hold_against_gap(estimate);
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
   estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
-  estimate.bound_t1 = typical_bound(analyses, &ImpactAnalysis::sliding);
+  estimate.bound_t1 = internal::sliding_mode::drawn_bound(recordings, in.facts, estimate.events);
   keep_figures(in, estimate.bound_t1, options, estimate);
   if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash) {
     const GapEstimate published =

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "sliding_mode/marks/marks.h"
 
 namespace gapscope::internal::sliding_mode {
 namespace {
@@ -60,7 +61,7 @@ double scale_of(std::span<const signals::SignalFacts> facts, const std::vector<E
 }  // namespace
 
 double at_rest_since(const ErrorTrace& trace, double start, double dt, const GapEvent& event,
-                     double half_period) {
+                     double half_period, double rest) {
   const std::vector<double>& error = trace.error;
   const double flight = event.t2 - event.t1;
   if (error.empty() || !(flight > 0.0)) return kNaN;
@@ -69,7 +70,7 @@ double at_rest_since(const ErrorTrace& trace, double start, double dt, const Gap
   const std::size_t reach = index(event.t1 - (half_period > 0.0 ? half_period : 10.0 * flight));
   double largest = 0.0;
   for (std::size_t i = from; i <= end; ++i) largest = std::max(largest, std::abs(error[i]));
-  const double quiet = kQuietError * largest;
+  const double quiet = std::max(kQuietError * largest, rest);
   std::size_t i = from;
   const std::size_t patience = index(event.t1 - 0.25 * flight);
   while (i > patience && !(std::abs(error[i]) <= quiet)) --i;
@@ -84,13 +85,15 @@ void keep_traces(std::span<const MotorTrace> recordings, std::span<const signals
   for (const MotorTrace& recording : recordings)
     estimate.traces.push_back(trace_of(recording, bound, discretisation));
   estimate.scale = scale_of(facts, estimate.traces);
-  for (GapEvent& event : estimate.events)
-    for (std::size_t i = 0; i < recordings.size(); ++i)
-      if (recordings[i].file == event.file) {
-        event.t_c = at_rest_since(estimate.traces[i], recordings[i].start, recordings[i].dt, event,
-                                  facts[i].half_period);
-        break;
-      }
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    if (!facts[i].defect.empty()) continue;
+    const double dt = recordings[i].dt,
+                 rest = 2.0 * chatter_floors(facts[i], dt, {&bound, 1}, discretisation)[0];
+    for (GapEvent& event : estimate.events)
+      if (recordings[i].file == event.file)
+        event.t_c =
+            at_rest_since(estimate.traces[i], recordings[i].start, dt, event, facts[i].half_period, rest);
+  }
 }
 
 }  // namespace gapscope::internal::sliding_mode

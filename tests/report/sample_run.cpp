@@ -107,7 +107,7 @@ GapEstimate estimate(const Recording& r, const std::vector<Mode>& mode, GapVerdi
   g.traces.push_back(differentiate(r, g.bound));
   g.events = passages(r, mode);
   for (GapEvent& e : g.events)
-    e.t_c = internal::sliding_mode::at_rest_since(g.traces[0], r.start, r.dt, e, 0.5);
+    e.t_c = internal::sliding_mode::at_rest_since(g.traces[0], r.start, r.dt, e, 0.5, 0.0);
   g.map = sample_map(r);
   g.paper_bound = 20.0;
   if (verdict == GapVerdict::kBacklash) {

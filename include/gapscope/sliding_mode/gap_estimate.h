@@ -93,7 +93,7 @@ struct GapEstimate {
   double smallest_visible_gap = kNaN;  ///< [rad], for loads that the reason names; always there for kNone
   double gap_at_most = kNaN;           ///< no gap is larger [rad]; NaN: no such bound is known
   double bound = kNaN;                 ///< L that decided t2 [rad/s²]
-  double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where it is another one [rad/s²]
+  double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where a bank has read [rad/s²]
   double paper_bound = kNaN;           ///< lower end of (13), where a model gave one [rad/s²]
   double scale = 1.0;                  ///< N of step S2: e_x × N is comparable with x1
   LostMotion lost_motion;              ///< beside the verdict, whatever that is
