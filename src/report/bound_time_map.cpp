@@ -73,8 +73,8 @@ Panel map_panel(const ReportView& view, const BoundMap& map) {
   for (std::size_t j = 0; j < map.bounds.size(); ++j) add_row(panel, map, j, half_step);
   const GapEstimate& g = *view.run.model_free;
   mark_bound(panel, g.bound, {kVermillion, 4.5, {}},
-             g.method == GapMethod::kPaper ? "$L$ that was used" : "$L$ that decides $t_2$");
-  mark_bound(panel, g.bound_t1, {kVermillion, 4.5, {16, 9}}, "$L$ that shows $t_1$");
+             g.by_one_bound() ? "$L$ that was used" : "$L$ that decides $t_2$");
+  mark_bound(panel, g.bound_t1, {kVermillion, 4.5, {16, 9}}, "$L$ of the $e_x$ drawn");
   mark_bound(panel, g.paper_bound, {kGreen, 4.5, {26, 8, 5, 8}}, "bound (13)");
   return panel;
 }

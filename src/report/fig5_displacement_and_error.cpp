@@ -4,6 +4,7 @@
 
 #include "report/figures.h"
 #include "report/signals.h"
+#include "report/true_passages.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -40,12 +41,18 @@ Series at_lone_impacts(const ReportView& view) {
   return s;
 }
 
-/// The bound of the differentiator that left the error trace.
-std::string at_bound(const ReportView& view) {
-  const GapEstimate& g = *view.run.model_free;
-  const double bound = std::isfinite(g.bound_t1) ? g.bound_t1 : g.bound;
-  if (!std::isfinite(bound)) return "";
-  return " (L = " + quantity(bound, view.length_unit + "/s²") + ")";
+/// Releases or impacts of the simulated plant.
+Series true_ones(const ReportView& view, bool release) {
+  Series s;
+  s.label = release ? kTrueRelease : kTrueImpact;
+  s.style = {kGrey, 4.0, {}};
+  s.marker = release ? Marker::kTriangleUp : Marker::kTriangleDown;
+  s.joined = false;
+  for (const TruePassage& p : true_passages(view, view.window)) {
+    s.x.push_back(release ? p.released : p.impact);
+    s.y.push_back(release ? p.x1_released : p.x1_impact);
+  }
+  return s;
 }
 
 std::string error_reading(const ReportView& view) {
@@ -53,10 +60,10 @@ std::string error_reading(const ReportView& view) {
   std::vector<double> magnitudes;
   for (const double e : view.error->error) magnitudes.push_back(std::abs(e));
   std::string text =
-      fmt::format("e_x{} peaks at {}, {} times its median size; {} of the gap used, {} set aside",
-                  at_bound(view), quantity(largest_magnitude(view.error->error), view.length_unit),
+      fmt::format("e_x peaks at {}, {} times its median size; {} of the gap used, {} set aside{}",
+                  quantity(largest_magnitude(view.error->error), view.length_unit),
                   plain_number(largest_magnitude(view.error->error) / median(magnitudes)),
-                  counted(used, "passage"), std::to_string(view.events.size() - used));
+                  counted(used, "passage"), std::to_string(view.events.size() - used), view.drawn_bound());
   if (!view.whole)
     text += fmt::format("; drawn: {} to {} of {}", quantity(view.window.low, "s"),
                         quantity(view.window.high, "s"), quantity(view.recording->duration(), "s"));
@@ -80,8 +87,9 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
   displacement.height = 420.0;
   displacement.series.push_back(
       view.over_time("", measured_style(), view.recording->position(), view.window));
-  const bool by_one_bound = view.run.model_free && view.run.model_free->method == GapMethod::kPaper;
-  for (const Series& s : {at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
+  const bool by_one_bound = view.run.model_free && view.run.model_free->by_one_bound();
+  for (const Series& s : {true_ones(view, true), true_ones(view, false),
+                          at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
                           at_events(view, "regained, $t_2$", Marker::kDisc, false),
                           by_one_bound ? at_lone_impacts(view) : Series{}})
     if (!s.x.empty()) displacement.series.push_back(s);

@@ -7,6 +7,7 @@
 
 #include "report/figures.h"
 #include "report/signals.h"
+#include "report/true_passages.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -62,6 +63,14 @@ Panel error_panel(const ReportView& view, const OnePassage& p) {
   return panel;
 }
 
+/// What the simulated plant did, in the lower panel, whose other marks have no names.
+void mark_truth(const ReportView& view, const OnePassage& p, Panel& panel, bool named) {
+  for (const TruePassage& passage : true_passages(view, p.window)) {
+    panel.x_marks.push_back({passage.released, truth_style(), named ? kTrueRelease : ""});
+    panel.x_marks.push_back({passage.impact, truth_style(), named ? kTrueImpact : ""});
+  }
+}
+
 void mark_times(Panel& panel, const OnePassage& p, bool named) {
   if (p.converged >= p.window.low)
     panel.x_marks.push_back({p.converged, guide_style(), named ? "$t_c$" : ""});
@@ -82,6 +91,10 @@ std::string reading(const ReportView& view, const OnePassage& p) {
   text += std::isfinite(p.converged)
               ? fmt::format("; e_x had been near zero since t_c = {:.4f} s", p.converged)
               : "; e_x was not quiet just before t1, so t_c is not drawn";
+  text += view.drawn_bound();
+  for (const TruePassage& truth : true_passages(view, p.window))
+    text += fmt::format("; in the simulation contact was lost at {:.4f} s and regained at {:.4f} s",
+                        truth.released, truth.impact);
   return "Passage nearest to the median: " + text + ".";
 }
 
@@ -122,7 +135,10 @@ FigureData fig6_one_period(const ReportView& view) {
     figure.panels.pop_back();
     figure.panels.front().x_labels = true;
   }
-  for (Panel& panel : figure.panels) mark_times(panel, *passage, &panel == &figure.panels.front());
+  for (Panel& panel : figure.panels) {
+    if (view.error) mark_truth(view, *passage, panel, &panel == &figure.panels.back());
+    mark_times(panel, *passage, &panel == &figure.panels.front());
+  }
   figure.reading = reading(view, *passage);
   return figure;
 }

@@ -115,10 +115,11 @@ std::string bounds_line(const RunResult& run) {
   const std::string unit = run.coordinates.shown_unit("rad/s^2");
   const bool by_model = std::isfinite(g.paper_bound);
   std::string text = fmt::format("\nBounds: L = {} {} {}", rounded(g.bound, 4), unit,
-                                 g.method != GapMethod::kPaper ? "decides t2"
-                                 : by_model                    ? "is by the paper's eq. (13), see the notes"
-                                                               : "was given");
-  if (std::isfinite(g.bound_t1)) text += fmt::format(", L = {} {} shows t1", rounded(g.bound_t1), unit);
+                                 !g.by_one_bound() ? "decides t2"
+                                 : by_model        ? "is by the paper's eq. (13), see the notes"
+                                                   : "was given");
+  if (std::isfinite(g.bound_t1))
+    text += fmt::format(", e_x is drawn with L = {} {}", rounded(g.bound_t1), unit);
   return text + ".\n";
 }
 

@@ -156,6 +156,18 @@ std::string ReportView::error_title(const std::string& title) const {
   return title + ", $L$ = " + rounded(bound) + " " + run.coordinates.shown_unit("rad/s^2");
 }
 
+std::string ReportView::drawn_bound() const {
+  if (!run.model_free || !error) return "";
+  const GapEstimate& g = *run.model_free;
+  const double bound = std::isfinite(g.bound_t1) ? g.bound_t1 : g.bound;
+  if (!std::isfinite(bound)) return "";
+  const bool passages = std::ranges::any_of(g.events, &GapEvent::accepted);
+  return "; L = " + rounded(bound) + " " + run.coordinates.shown_unit("rad/s^2") +
+         (g.by_one_bound() ? " was given"
+          : passages       ? " is the smallest bound of the bank that slides just before t1"
+                           : " is the smallest bound of the bank that slides over the recording");
+}
+
 std::string ReportView::state_name() const {
   return source == StateSource::kFitted ? "$x_1 − x_2$, fitted" : "$x_1 − x_2$";
 }

@@ -43,6 +43,8 @@ struct ReportView {
   Axis time_axis(const Interval& interval) const;
   /// "Estimation error, L = 6 rad/s²": with the bound of the differentiator whose e_x is drawn.
   std::string error_title(const std::string& title = "Estimation error") const;
+  /// "; L = 6 rad/s² was given", or by which rule it was chosen; empty where no e_x is drawn.
+  std::string drawn_bound() const;
   bool reads_load() const { return recording && recording->encoder == EncoderSide::kLoad; }
   std::string position_name() const { return reads_load() ? "$x_2$" : "$x_1$"; }  ///< that estimators read
   std::string state_title() const;  ///< "Backlash state", and whether the model that has it was rejected
