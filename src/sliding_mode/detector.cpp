@@ -27,11 +27,11 @@ struct Inputs {
   std::vector<SignalFacts> facts;
 };
 
-/// Median over the recordings of a bound that each analysis chose.
-double typical_bound(std::span<const ImpactAnalysis> analyses, std::size_t ImpactAnalysis::*index) {
+/// Median over the recordings of the bound that decides t2.
+double deciding_bound(std::span<const ImpactAnalysis> analyses) {
   std::vector<double> bounds;
   for (const ImpactAnalysis& a : analyses)
-    if (a.facts.defect.empty()) bounds.push_back(a.run.bounds[a.*index]);
+    if (a.facts.defect.empty()) bounds.push_back(a.run.bounds[a.deciding]);
   return median(std::move(bounds));
 }
 
@@ -117,7 +117,7 @@ GapEstimate detect_gap(std::span<const MotorTrace> recordings, const DetectorOpt
   estimate.gap_at_most = std::fmin(estimate.gap_at_most, estimate.lost_motion.gap_limit);
   internal::sliding_mode::hold_against_gap(estimate);
   if (paper || estimate.method == GapMethod::kLostMotion) return estimate;
-  estimate.bound = typical_bound(analyses, &ImpactAnalysis::deciding);
+  estimate.bound = deciding_bound(analyses);
   estimate.bound_t1 = internal::sliding_mode::drawn_bound(recordings, in.facts, estimate.events);
   keep_figures(in, estimate.bound_t1, options, estimate);
   if (options.paper_bound > 0.0 && estimate.verdict == GapVerdict::kBacklash) {

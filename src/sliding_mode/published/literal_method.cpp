@@ -11,8 +11,8 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-// What S1 to S6 leave to the eye, and a program must know. Half and double of each move no mean of
-// configs/02 and configs/12 that is read by 0.5 % of the gap: see docs/science.md.
+// What S1 to S6 leave to the eye, and a program must know; docs/against_the_paper.md has half and double of
+// each.
 
 /// S2, "e_x ≈ 0 with respect to noise": within so many standard deviations of a sample, and
 constexpr double kNoises = 4.0;
