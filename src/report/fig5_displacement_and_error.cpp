@@ -88,10 +88,10 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
   displacement.series.push_back(
       view.over_time("", measured_style(), view.recording->position(), view.window));
   const bool by_one_bound = view.run.model_free && view.run.model_free->by_one_bound();
-  for (const Series& s : {true_ones(view, true), true_ones(view, false),
-                          at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
-                          at_events(view, "regained, $t_2$", Marker::kDisc, false),
-                          by_one_bound ? at_lone_impacts(view) : Series{}})
+  for (const Series& s :
+       {at_events(view, "contact lost, $t_1$", Marker::kCircle, true),
+        at_events(view, "regained, $t_2$", Marker::kDisc, false),
+        by_one_bound ? at_lone_impacts(view) : Series{}, true_ones(view, true), true_ones(view, false)})
     if (!s.x.empty()) displacement.series.push_back(s);
   Panel error;
   error.title = view.error_title();
