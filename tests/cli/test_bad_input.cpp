@@ -101,6 +101,8 @@ const std::vector<BadInput> kConfigs = {
            "c.yaml:14: detector.method is 'loop'"),
     config("paper_without_a_bound", kSimulated + "detector: {method: paper}\n",
            "c.yaml:14: detector.method is paper without a bound"),
+    config("literal_without_a_bound", kSimulated + "detector: {method: literal}\n",
+           "c.yaml:14: detector.method is literal without a bound"),
     config("loop_with_a_bound", kSimulated + "detector: {method: lost_motion, bound: 4}\n",
            "c.yaml:14: detector.method is lost_motion beside a bound"),
     config("empty", "# nothing\n", "c.yaml: is empty"),

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cli/executable.h"
 #include "gapscope/results/run_result.h"
 #include "support/data.h"
@@ -67,6 +69,18 @@ TEST(Configurations, TheExperimentIsReadWithinThreePercentByBothAndTheIntervalsH
   EXPECT_LT(share_off(gap->value, 0.019), 0.03);
   EXPECT_TRUE(holds(gap->ci95, 0.019));
   EXPECT_EQ(r.comparison->agree, true);
+}
+
+TEST(Configurations, ThePapersOwnRegimeIsReadAsPrintedWithNoIntervalAndTheFitHeadsTheAnswer) {
+  const RunResult r = run_config("12_paper_experiment.yaml");
+  ASSERT_EQ(r.model_free->verdict, GapVerdict::kBacklash) << r.model_free->reason;
+  EXPECT_EQ(r.model_free->method, GapMethod::kLiteral);
+  EXPECT_LT(share_off(r.model_free->gap, 0.019), 0.05);
+  EXPECT_GT(r.model_free->std, 0.0);
+  EXPECT_TRUE(std::isnan(r.model_free->ci95.low));
+  EXPECT_FALSE(r.comparison->agree) << "a scatter is no error of the mean";
+  EXPECT_LT(share_off(r.reference->find("gap")->value, 0.019), 0.001);
+  EXPECT_EQ(r.answer->from, AnswerSource::kReference);
 }
 
 TEST(Configurations, TheRecordingFromAnotherPlantIsReadByBoth) {
