@@ -227,6 +227,8 @@ std::string step_without_model(const GapEstimate& g) {
   const bool open = g.verdict == GapVerdict::kInconclusive, loop = g.lost_motion.read();
   if (open && g.reason.code() == "locked_with_bound")
     return "Set detector: bound to auto: it reads the lost-motion loop, a given bound reads impacts alone.";
+  if (g.reason.code() == "passages_as_printed" && open)
+    return "Try another bound, a lower one where e_x shows impacts alone, or detector: {bound: auto}.";
   if (g.reason.code() == "encoder_on_load")
     return "For a gap by a model alone: `gapscope init` with --model gap, then `gapscope fit`.";
   const auto says = [&](const char* code) { return g.reason.codes().find(code) != std::string::npos; };
