@@ -69,9 +69,17 @@ Answer from_reference(const Findings& f, const FittedParameter& gap, AnswerTrust
   return a;
 }
 
+/// Of a reading by itself: what its own recordings bear out.
+AnswerTrust trust_in(const GapEstimate& reading) {
+  return reading.trust == GapTrust::kGood ? AnswerTrust::kGood : AnswerTrust::kLimited;
+}
+
 Answer agreed(const Findings& f, const FittedParameter& gap) {
   const bool sharper = is_good(f) && width(gap.ci95) < width(f.model_free->ci95);
-  Answer a = sharper ? from_reference(f, gap, AnswerTrust::kGood) : from_model_free(f, AnswerTrust::kGood);
+  const AnswerTrust trust = is_good(f) ? AnswerTrust::kGood : trust_in(*f.model_free);
+  Answer a = sharper ? from_reference(f, gap, trust) : from_model_free(f, trust);
+  a.codes = {sharper ? "gap.reference" : "gap.model_free",
+             sharper ? "gap.model_free.agrees" : "gap.reference.agrees"};
   a.sentence += sharper ? ", and the model-free reading agrees." : ", and the fitted model agrees.";
   return a;
 }
@@ -81,6 +89,8 @@ Answer contradicted(const Findings& f, const FittedParameter& gap) {
   const bool model = is_good(f);
   Answer a =
       model ? from_reference(f, gap, AnswerTrust::kLimited) : from_model_free(f, AnswerTrust::kLimited);
+  a.codes = {model ? "gap.reference" : "gap.model_free",
+             model ? "gap.model_free.contradicts" : "gap.reference.contradicts"};
   a.sentence += model ? ", but without a model it reads " + with_interval(g.gap, g.ci95, f.coordinates) + "."
                       : ", but the fitted model says " +
                             with_interval(gap.value, f.reference->shown_interval(gap), f.coordinates) + ".";
@@ -109,7 +119,9 @@ Answer read(const Findings& f) {
   const FittedParameter* gap = told_gap(f);
   if (f.model_free->method == GapMethod::kLiteral) return as_printed(f, gap);
   if (gap != nullptr && f.agree) return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
-  Answer a = from_model_free(f, AnswerTrust::kGood);
+  const bool rejected = f.reference != nullptr && f.reference->rejected();
+  Answer a = from_model_free(f, rejected ? AnswerTrust::kLimited : trust_in(*f.model_free));
+  a.codes = {"gap.model_free", rejected ? "reference.rejected" : "reference.tells_none"};
   a.sentence += end_without_model(f);
   return a;
 }
@@ -129,13 +141,17 @@ Answer denied(const Findings& f) {
   if (none_by_both(f)) {
     a.sentence = kNoBacklash + least + ", and the fitted model closes the gap: none by both.";
     a.trust = AnswerTrust::kGood;
+    a.codes = {"none.model_free", "none.reference.agrees"};
   } else if (gap == nullptr) {
+    a.codes = {"none.model_free"};
     a.sentence = kNoBacklash + least + end_without_model(f);
   } else if (gap->ci95.low > limit) {
+    a.codes = {"none.model_free", "gap.reference.contradicts"};
     a.sentence = "Without a model there is no backlash above " + least + ", but the fitted model says " +
                  with_interval(gap->value, f.reference->shown_interval(*gap), f.coordinates) + ".";
   } else {
     a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
+    a.codes = {"gap.reference", "none.model_free.agrees"};
     a.sentence += "; without a model none above " + least + " is seen, which agrees.";
   }
   return a;
@@ -168,10 +184,12 @@ Answer play(const Findings& f) {
   Answer a{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
   a.sentence = std::string(internal::diagnosis::kThePlay) + kWhichGap + " is " + value +
                ", without a model; friction and compliance contribute to it, so the gap is at most that.";
+  a.codes = {"play.model_free"};
   const FittedParameter* gap = told_gap(f);
   if (gap == nullptr || gap->value > f.model_free->ci95.high) return a;
   Answer model = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
   model.sentence += ". " + a.sentence;
+  model.codes = {"gap.reference", "play.model_free.agrees"};
   return model;
 }
 
@@ -191,6 +209,7 @@ Answer by_model_alone(const Findings& f) {
   if (const FittedParameter* gap = told_gap(f)) {
     a = from_reference(f, *gap, is_good(f) ? AnswerTrust::kGood : AnswerTrust::kLimited);
     a.sentence += ". " + f.reference->why.text();
+    a.codes = {"gap.reference", "model_free.inconclusive"};
     return a;
   }
   const std::string loop = lost_motion(f);
@@ -204,6 +223,7 @@ Answer by_model_alone(const Findings& f) {
     a.sentence = "The gap is not known.";
   if (f.reference != nullptr) a.sentence += (a.sentence.empty() ? "" : " ") + no_number(*f.reference);
   if (a.sentence.empty()) a.sentence = "Nothing was estimated.";
+  a.codes = {loop.empty() ? "gap.not_known" : "lost_motion"};
   return a;
 }
 
@@ -312,6 +332,7 @@ Answer answer_of(const Findings& f) {
              : f.model_free->quantity == GapQuantity::kPlayAtZeroTorque ? play(f)
                                                                         : read(f);
   a.next = steps(f);
+  if (f.model_free != nullptr) a.gap_at_most = f.model_free->gap_at_most;
   return a;
 }
 

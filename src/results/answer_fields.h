@@ -45,6 +45,8 @@ void fields(Archive& archive, Answer& a) {
       "trust", a.trust,
       Words<AnswerTrust>{
           {AnswerTrust::kGood, "good"}, {AnswerTrust::kLimited, "limited"}, {AnswerTrust::kNone, "none"}});
+  archive.addition("gap_at_most_rad", a.gap_at_most);
+  archive.added("codes", a.codes);
   archive("sentence", a.sentence);
   archive("next", a.next);
   archive.added("card", static_cast<CardText&>(a.card));

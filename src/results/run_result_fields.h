@@ -81,6 +81,12 @@ void fields(Archive& archive, LostMotion& m) {
 }
 
 template <class Archive>
+void fields(Archive& archive, ReadingTest& t) {
+  archive("test", t.what);
+  archive("passed", t.passed);
+}
+
+template <class Archive>
 void fields(Archive& archive, GapEstimate& g) {
   archive.choice("verdict", g.verdict,
                  Words<GapVerdict>{{GapVerdict::kBacklash, "backlash"},
@@ -103,6 +109,12 @@ void fields(Archive& archive, GapEstimate& g) {
   archive.added("lost_motion", g.lost_motion);
   archive("smallest_visible_gap_rad", g.smallest_visible_gap);
   archive.added("gap_at_most_rad", g.gap_at_most);
+  archive.added_choice(
+      "trust", g.trust,
+      Words<GapTrust>{{GapTrust::kNone, "none"}, {GapTrust::kLimited, "limited"}, {GapTrust::kGood, "good"}},
+      GapTrust::kNone);
+  archive.added("presumes", g.presumes);
+  archive.added_list("tested", g.tested);
   archive("bound_rad_s2", g.bound);
   archive("bound_t1_rad_s2", g.bound_t1);
   archive("paper_bound_rad_s2", g.paper_bound);

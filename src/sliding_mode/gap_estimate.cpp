@@ -45,6 +45,11 @@ const char* to_string(GapQuantity quantity) {
   return "";
 }
 
+const char* to_string(GapTrust trust) {
+  constexpr const char* kWords[] = {"none", "limited", "good"};
+  return kWords[static_cast<int>(trust)];
+}
+
 const char* to_string(LostMotionCause cause) {
   switch (cause) {
     case LostMotionCause::kNotRead:

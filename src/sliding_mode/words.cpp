@@ -162,6 +162,18 @@ Remark flights_together(long used, long turns) {
           {used, turns}};
 }
 
+Remark both_directions() { return {"both_directions", "same in both directions"}; }
+Remark single_passages() { return {"single_passages", "read in single passages, not in all together alone"}; }
+Remark load_known() {
+  return {"load_known",
+          "the motor rests at its load before the gap, or the law of the load that moves is known"};
+}
+Remark narrow_interval() { return {"narrow_interval", "known to an eighth"}; }
+Remark levels_agree() { return {"levels_agree", "same at two torque levels"}; }
+Remark one_gap() { return {"one_gap", "there is one gap, not several in series"}; }
+Remark load_rests() { return {"load_rests", "load rests between t1 and t2"}; }
+Remark own_encoder() { return {"own_encoder", "x1 is what the encoder read, not filtered since"}; }
+
 Remark stands_still() { return {"stands_still", "x1 moves by less than its noise"}; }
 Remark few_torque_ramps(long zeros) {
   return {"few_torque_ramps",

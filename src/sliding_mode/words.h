@@ -76,6 +76,16 @@ Remark play_at_some_levels();
 Remark loop_runs_backwards(std::span<const Play> levels);
 Remark free_run_without_play(std::span<const Play> levels, double free_run);
 
+// What a reading was tested for, and what it presumes.
+Remark both_directions();
+Remark single_passages();
+Remark load_known();
+Remark narrow_interval();
+Remark levels_agree();
+Remark one_gap();
+Remark load_rests();
+Remark own_encoder();
+
 // One bound, as published.
 Remark error_never_at_rest();
 Remark bound_above_gap_mode();

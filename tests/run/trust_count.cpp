@@ -17,9 +17,10 @@ AnswerTrust trust_of(FitTrust trust) {
                                        : AnswerTrust::kNone;
 }
 
-/// The verdict is all that a reading has by now; a play at zero torque is no more than a limit of the gap.
 AnswerTrust trust_of(const GapEstimate& reading) {
-  return reading.quantity == GapQuantity::kGap ? AnswerTrust::kGood : AnswerTrust::kLimited;
+  return reading.trust == GapTrust::kGood      ? AnswerTrust::kGood
+         : reading.trust == GapTrust::kLimited ? AnswerTrust::kLimited
+                                               : AnswerTrust::kNone;
 }
 
 const char* word(Verity v) {

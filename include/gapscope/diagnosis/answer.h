@@ -33,7 +33,9 @@ struct Answer {
   std::string sentence;
   std::vector<std::string> next;  ///< at most three steps
   Tolerance tolerance = {};       ///< that was stated
-  Card card = {};                 ///< the same and the mismatch, in six lines
+  double gap_at_most = kNaN;  ///< no gap is larger, by the reading without a model [rad]; NaN: no such bound
+  std::vector<std::string> codes = {};  ///< what is told, by names that do not change with its wording
+  Card card = {};                       ///< the same and the mismatch, in six lines
 };
 
 /// What was found. A part that was not asked for is null.
@@ -45,10 +47,12 @@ struct Findings {
   double travel = kNaN;  ///< of x1, peak to peak, the largest of the recordings [rad]; NaN: not told
 };
 
-/// Which of both numbers to believe. A rejected reference has no say; one that is good goes before a reading
-/// that contradicts it, and before one that agrees and is less sharp; one that is limited behind any reading.
-/// Where they contradict each other the trust is limited, and that in a gap denied without a model alone: a
-/// load far lighter than the motor leaves a weaker impact, and such a reading does not know the load.
+/// Which of both numbers to believe. A reading that its own recordings do not bear out in all is good only
+/// where a good reference agrees, and none is beside a reference that is rejected. A rejected reference has
+/// no say; one that is good goes before a reading that contradicts it, and before one that agrees and is less
+/// sharp; one that is limited behind any reading. Where they contradict each other the trust is limited, and
+/// that in a gap denied without a model alone: a load far lighter than the motor leaves a weaker impact, and
+/// such a reading does not know the load.
 Answer answer_of(const Findings& findings);
 
 /// An answer that rests on doubtful recordings: its trust is limited at most, and the first doubt is seen to

@@ -34,6 +34,12 @@ double Deviations::together() const {
   return std::sqrt(sum);
 }
 
+double Deviations::beside_directions() const {
+  Deviations others = *this;
+  others.directions = 0.0;
+  return others.together();
+}
+
 GapEstimate conclude(GapEvidence e) {
   GapEstimate estimate;
   estimate.verdict = GapVerdict::kInconclusive;
@@ -42,15 +48,26 @@ GapEstimate conclude(GapEvidence e) {
   estimate.smallest_visible_gap = e.smallest_visible_gap;
   estimate.events = std::move(e.events);
   estimate.warnings = std::move(e.warnings);
+  estimate.tested = std::move(e.tested);
+  estimate.presumes = std::move(e.presumes);
   estimate.reason = e.denies ? e.reading : e.against;
-  if (e.denies) estimate.verdict = GapVerdict::kNone, estimate.gap_at_most = e.smallest_visible_gap;
+  if (e.denies) {
+    estimate.verdict = GapVerdict::kNone;
+    estimate.gap_at_most = e.smallest_visible_gap;
+    estimate.trust = GapTrust::kLimited;  // a load that is lighter, or held by what pulls, would not show
+  }
   if (!estimate.reason.empty()) return estimate;
   const double std = e.parts.together(), share = kNormal95 * std / e.gap;
-  const double widest = e.quantity == GapQuantity::kGap ? kWidest : kWidestPlay;
-  if (!(share <= widest)) {
-    estimate.reason = words::gap_uncertain(e.gap, 100.0 * share, mostly(e, share / widest));
+  const Remark uncertain = words::gap_uncertain(e.gap, 100.0 * share, mostly(e, share / kNarrow));
+  if (!(share <= kWidest)) {
+    estimate.reason = uncertain;
     return estimate;
   }
+  const bool narrow = share <= kNarrow;
+  if (e.quantity == GapQuantity::kGap) estimate.tested.push_back({words::narrow_interval(), narrow});
+  if (e.quantity == GapQuantity::kGap && !narrow) estimate.warnings.push_back(uncertain);
+  const bool all = std::ranges::all_of(estimate.tested, &ReadingTest::passed);
+  estimate.trust = all && e.quantity == GapQuantity::kGap ? GapTrust::kGood : GapTrust::kLimited;
   estimate.verdict = GapVerdict::kBacklash;
   estimate.gap = e.gap;
   estimate.std = std;

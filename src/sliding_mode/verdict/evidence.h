@@ -15,6 +15,7 @@ struct Deviations {
   double sampling = 0.0;    ///< from one sample to the next
   double noise = 0.0;       ///< of the encoder
   double together() const;
+  double beside_directions() const;  ///< of all others
 };
 
 /// What one way of looking at the recordings says of a gap: impacts of single passages, all passages
@@ -31,14 +32,16 @@ struct GapEvidence {
   bool denies = false;                 ///< no gap above that, and `reading` is why
   std::vector<GapEvent> events;
   std::vector<Remark> warnings;
+  std::vector<ReadingTest> tested;
+  std::vector<Remark> presumes;
 };
 
-/// Half the 95 % interval of a gap that is told, over the gap, and of a play at zero torque, which the ramps
-/// that can be recorded leave less precise.
-constexpr double kWidest = 0.125, kWidestPlay = 0.25;
+/// Half the 95 % interval over the gap: of what is told at all, and of a gap that is told with good trust.
+constexpr double kWidest = 0.25, kNarrow = 0.125;
 
 /// Verdict, interval and reason: `none` of what denies a gap, `backlash` where nothing speaks against one
-/// that is known closely enough, else `inconclusive` with the reason.
+/// that is known closely enough, else `inconclusive` with the reason. The trust is good where every test was
+/// passed.
 GapEstimate conclude(GapEvidence evidence);
 
 }  // namespace gapscope::internal::sliding_mode

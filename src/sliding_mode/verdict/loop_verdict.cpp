@@ -132,7 +132,7 @@ LostMotion measured(Levels levels) {
 void explain(Levels levels, LostMotion& m) {
   const bool apart = any_disagree(levels);
   const bool known = std::ranges::all_of(
-      levels, [](const TorqueLevel& l) { return l.reading.half_width <= kWidestPlay * l.play(); });
+      levels, [](const TorqueLevel& l) { return l.reading.half_width <= kWidest * l.play(); });
   const bool still = all(levels, &TorqueLevel::runs_nowhere) && !any(levels, &TorqueLevel::runs_free) &&
                      !any(levels, &TorqueLevel::leaps) && !any(levels, &TorqueLevel::runs_backwards);
   m.cause = LostMotionCause::kOpen;
@@ -149,9 +149,7 @@ void explain(Levels levels, LostMotion& m) {
 bool TorqueLevel::runs() const {
   return shape.free_run >= kMostly * play() && shape.alone >= kAlone && play() > kFinest * resolution;
 }
-bool TorqueLevel::shows_play() const {
-  return runs() && !leaps() && reading.half_width <= kWidestPlay * play();
-}
+bool TorqueLevel::shows_play() const { return runs() && !leaps() && reading.half_width <= kWidest * play(); }
 bool TorqueLevel::leaps() const { return shape.free_run > kLeaps * play() && play() > kFinest * resolution; }
 bool TorqueLevel::runs_nowhere() const {
   return shape.free_run <= kNowhere * std::max(play(), kFinest * resolution);
@@ -186,6 +184,7 @@ LoopEvidence loop_evidence(Levels levels) {
   e.parts.random = (found.lost_motion.ci95.high - found.lost_motion.ci95.low) / (2.0 * kSurely);
   e.smallest_visible_gap = found.lost_motion.gap_limit;
   decide(levels, e);
+  e.tested = {{words::levels_agree(), levels.size() > 1 && e.against.empty()}};
   return found;
 }
 

@@ -124,6 +124,13 @@ double recordings_disagreement(const std::vector<const Passage*>& passages) {
   return std::max(0.5 * (high - low), 0.0);
 }
 
+/// Whether the motor rested at its load before most passages, or the law of the load is known.
+bool load_known(const Pool& pool) {
+  const auto known =
+      std::ranges::count_if(pool.accepted, [](const Passage* p) { return p->dwell || p->by_law; });
+  return 2 * known >= std::ssize(pool.accepted);
+}
+
 Deviations deviations(const Pool& pool, const Middle& m) {
   const double witnesses = (m.only == 0 ? 0.5 : 1.0) * static_cast<double>(m.used);
   return {m.scatter / std::sqrt(std::max(witnesses, 1.0)),
@@ -198,6 +205,11 @@ GapEvidence gap_evidence(const Pool& pool) {
   if (!e.against.empty()) return e;
   e.gap = m.gap;
   e.parts = deviations(pool, m);
+  const bool both = m.only == 0 && e.parts.directions <= kNormal95 * e.parts.beside_directions();
+  e.tested = {{words::both_directions(), both},
+              {words::single_passages(), true},
+              {words::load_known(), load_known(pool)}};
+  e.presumes = {words::one_gap(), words::own_encoder()};
   e.reading = words::passages_used(static_cast<long>(m.used), static_cast<long>(pool.seen()), m.only);
   e.smallest_visible_gap = pool.finest < m.gap ? pool.finest : kNaN;  // it foretells, this one shows
   return e;

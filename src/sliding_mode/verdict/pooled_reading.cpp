@@ -268,6 +268,8 @@ std::optional<GapEvidence> read_one(const MotorTrace& trace, const signals::Sign
   if (e.gap - kNormal95 * e.parts.together() < signals::kFewestToldQuanta * facts.quantum) return {};
   e.smallest_visible_gap = few ? kNaN : kFewestPooledQuanta * facts.quantum;
   keep_events(s, *c, e);
+  e.tested = {{words::single_passages(), false}};
+  e.presumes = {words::one_gap(), words::load_rests(), words::own_encoder()};
   e.reading = words::flights_together(std::ssize(e.events), std::ssize(s.turns));
   return e;
 }
