@@ -75,6 +75,7 @@ Inspection check_recording(const CheckArguments& a, const RecordingArguments& r)
   if (!a.output.empty()) write_text(a.output, json, look());
   if (const std::string told = r.told_by_names(); !a.json && !told.empty())
     fmt::print("{:<12}{}\n", "units", told);
+  if (!a.json) tell_assumed(inspection.assumed, inspection.coordinates);
   fmt::print("{}", a.json ? json : inspection.report());
   std::fflush(stdout);  // read while the picture is drawn
   if (!a.picture.empty()) draw(a, inspection, r, *c.recording);

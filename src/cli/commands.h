@@ -8,6 +8,7 @@
 #include "cli/command_line.h"
 #include "cli/console.h"
 #include "gapscope/base/coordinates.h"
+#include "gapscope/base/remark.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/config/configuration.h"
 
@@ -96,12 +97,18 @@ struct RecordingArguments {
   std::string gain;            ///< of that controller: a number, or estimate
   DriveController controller;  ///< its other numbers
   DeclaredUnits units;
-  RegisterBits registers;
+  RegisterForms registers;
   GearRatios gear;
-  int bits = 0;        ///< of the encoder; 0: not given
-  std::string side;    ///< of the encoder: motor or load; empty: motor
-  std::string preset;  ///< how a common drive writes its recordings; empty: as they are declared
-  std::string axis;    ///< of a machine with several; empty: the file has one
+  int bits = 0;         ///< of the encoder; 0: not given
+  std::string side;     ///< of the encoder: motor or load; empty: motor
+  std::string preset;   ///< how a common drive writes its recordings; empty: as they are declared
+  std::string axis;     ///< of a machine with several; empty: the file has one
+  std::string columns;  ///< "1,3,5": names or places of time, input and position; empty: each has its own
+  std::string speed;    ///< in place of the position; empty: that is there
+  double rate = 0.0;    ///< of rows without a time [Hz]; 0: they have one
+  int input_rows = 0;   ///< by which the input is moved
+  std::string input_register;   ///< as it is written: "16", "sign10", "offset2048"; empty: it is none
+  std::vector<Remark> guessed;  ///< what with_guesses() took for granted
 
   bool gain_sought() const { return gain == kSought; }
   EncoderConfig encoder() const;
@@ -115,6 +122,13 @@ struct RecordingArguments {
   /// themselves.
   std::vector<RecordingArguments> each_axis() const;
 };
+/// The same with what is not declared taken from the file: columns by their names or order, units.
+/// @throws ConfigError where a column cannot be told
+RecordingArguments with_guesses(RecordingArguments arguments);
+
+/// What was taken for granted, in two lines: of the table, and of what is in it.
+void tell_assumed(const std::vector<Remark>& assumed, Coordinates coordinates);
+
 /// @throws ConfigError where two of time, input and position are one column
 void require_three_columns(const RecordingColumns& columns);
 void add_recording_arguments(CommandLine& command, RecordingArguments& arguments);

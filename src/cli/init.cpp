@@ -148,6 +148,7 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
   print_warnings(starter.spoiling);
   fmt::print("{:<12}{}\n", "written", output);
   if (const std::string told = r.told_by_names(); !told.empty()) fmt::print("{:<12}{}\n", "units", told);
+  tell_assumed(starter.assumed, r.coordinates());
   fmt::print("{:<12}{}\n", "model", starter.model);
   if (known.anchor) fmt::print("{:<12}{}\n", "anchor", known.anchor->told(r.coordinates()));
   if (!starter.hangs.empty()) fmt::print("{:<12}{}\n", "hangs_at", starter.hangs);

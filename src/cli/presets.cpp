@@ -82,7 +82,7 @@ std::string options_of_input(const RecordingArguments& a, const DrivePreset& p) 
   std::string text;
   const bool recorded = a.target.empty();
   if (recorded && a.units.input.empty()) text += fmt::format(" --input-unit {}", p.input_unit);
-  if (recorded && a.registers.input == 0 && p.input_register > 0)
+  if (recorded && !a.registers.input.is_one() && a.input_register.empty() && p.input_register > 0)
     text += fmt::format(" --input-register {}", p.input_register);
   if (*p.voltage != '\0' && a.voltage.empty()) text += " --voltage COLUMN";
   if (*p.voltage != '\0' && a.units.voltage.empty())
@@ -107,7 +107,8 @@ RecordingArguments with_preset(RecordingArguments a) {
     column(a.input, preset->input, "--input");
     column(a.voltage, preset->voltage, "--voltage");
     if (a.units.input.empty()) a.units.input = unit_of(a.input, preset->input, preset->input_unit);
-    if (a.registers.input == 0) a.registers.input = preset->input_register;
+    if (!a.registers.input.is_one() && a.input_register.empty())
+      a.registers.input.bits = preset->input_register;
   }
   column(a.position, preset->position, "--position");
   if (a.units.time.empty()) a.units.time = preset->time_unit;

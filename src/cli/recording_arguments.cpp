@@ -50,13 +50,76 @@ struct NamedUnit {
 std::vector<NamedUnit> left_to_names(DeclaredUnits& units, const RecordingColumns& columns,
                                      Coordinates coordinates) {
   const bool turns = coordinates.rotational();
-  std::vector<NamedUnit> left = {
-      {&units.time, columns.time, Quantity::kTime},
-      {&units.input, columns.input, turns ? Quantity::kTorque : Quantity::kForce},
-      {&units.position, columns.position, turns ? Quantity::kAngle : Quantity::kLength},
-      {&units.voltage, columns.voltage, Quantity::kVoltage}};
+  const bool speed = columns.position_is_speed;
+  std::vector<NamedUnit> left = {{&units.input, columns.input, turns ? Quantity::kTorque : Quantity::kForce},
+                                 {speed ? &units.speed : &units.position, columns.position,
+                                  speed   ? (turns ? Quantity::kTurning : Quantity::kSliding)
+                                  : turns ? Quantity::kAngle
+                                          : Quantity::kLength},
+                                 {&units.voltage, columns.voltage, Quantity::kVoltage}};
+  if (columns.rate == 0.0) left.insert(left.begin(), {&units.time, columns.time, Quantity::kTime});
   std::erase_if(left, [](const NamedUnit& u) { return !u.declared->empty(); });
   return left;
+}
+
+}  // namespace
+
+namespace {
+
+/// The option that says the unit of a column.
+std::string option_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kTime:
+      return "--time-unit";
+    case Quantity::kTorque:
+    case Quantity::kForce:
+      return "--input-unit";
+    case Quantity::kVoltage:
+      return "--voltage-unit";
+    case Quantity::kTurning:
+    case Quantity::kSliding:
+      return "--speed-unit";
+    case Quantity::kAngle:
+    case Quantity::kLength:
+      break;
+  }
+  return "--position-unit";
+}
+
+/// @throws ConfigError where the name ends with what is no unit of this quantity
+std::string unit_by_name(const NamedUnit& u) {
+  const std::string unit = unit_in_name(u.column, u.quantity), other = unit_of_another(u.column, u.quantity);
+  if (other.empty()) return unit;
+  const bool speed = unit_scale(Quantity::kTurning, other) || unit_scale(Quantity::kSliding, other);
+  throw ConfigError(
+      fmt::format("gapscope: {} is in {}, which is {}, expected {} with {}", shown(u.column), shown(other),
+                  speed ? "a speed" : "no known unit here",
+                  speed ? fmt::format("--speed {} (or {} UNIT", u.column, option_of(u.quantity)) + ")"
+                        : option_of(u.quantity),
+                  known_units(u.quantity)));
+}
+
+/// Of "16", "sign10" or "offset2048".
+RegisterForm register_form(const std::string& text) {
+  const auto number = [&](const std::string& word, double low, double high) -> std::optional<double> {
+    if (!text.starts_with(word)) return {};
+    const auto value = decimal(text.substr(word.size()));
+    return value && *value >= low && *value <= high ? value : std::nullopt;
+  };
+  RegisterForm form;
+  if (text.empty()) return form;
+  if (const auto bit = number("sign", 1, 51))
+    form.sign_bit = static_cast<int>(*bit);
+  else if (const auto offset = number("offset", -1e15, 1e15))
+    form.offset = *offset;
+  else if (const auto bits = number("", 2, 52))
+    form.bits = static_cast<int>(*bits);
+  else
+    throw ConfigError(fmt::format(
+        "gapscope: --input-register is {}, expected bits of two's complement (2 to 52), signBIT (1 to 51) or "
+        "offsetNUMBER",
+        shown(text)));
+  return form;
 }
 
 }  // namespace
@@ -85,7 +148,9 @@ RecordingConfig RecordingArguments::configuration() const {
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.registers = registers;
+  if (!input_register.empty()) c.registers.input = register_form(input_register);
   c.gear = gear;
+  c.assumed = guessed;
   ReadOptions& o = c.reading;
   o.columns.time = time;
   const std::string named = axis.empty() ? "" : std::string(kAxisInName) + ".";  // as of joint states
@@ -95,7 +160,10 @@ RecordingConfig RecordingArguments::configuration() const {
                        : !axis.empty()                   ? named + "position"
                        : o.encoder == EncoderSide::kLoad ? "x2"
                                                          : "x1";
+  if (!speed.empty()) o.columns.position = speed, o.columns.position_is_speed = true;
   o.columns.position_named = true;
+  o.columns.rate = rate;
+  o.input_rows = input_rows;
   o.columns.voltage = voltage;
   o.columns.target = target;
   if (!target.empty() && input.empty()) o.columns.input_column = InputColumn::kNone;
@@ -106,17 +174,18 @@ RecordingConfig RecordingArguments::configuration() const {
                                   shown(o.columns.input), kInputsOfDrives));
   require_three_columns(o.columns);
   c.units = units;
-  for (const NamedUnit& u : left_to_names(c.units, o.columns, coordinates()))
-    *u.declared = unit_in_name(u.column, u.quantity);
-  o.columns.scales = declared_scales(
-      c.units, registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
-        const std::string& unit = key == "time"      ? units.time
-                                  : key == "input"   ? units.input
-                                  : key == "voltage" ? units.voltage
-                                                     : units.position;
-        throw ConfigError(
-            fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));
-      });
+  for (const NamedUnit& u : left_to_names(c.units, o.columns, coordinates())) *u.declared = unit_by_name(u);
+  o.columns.scales =
+      declared_scales(c.units, c.registers, gear, encoder(), coordinates(), o.columns.position_is_speed,
+                      [&](const std::string& key, auto& expected) {
+                        const std::string& unit = key == "time"      ? units.time
+                                                  : key == "input"   ? units.input
+                                                  : key == "voltage" ? units.voltage
+                                                  : key == "speed"   ? units.speed
+                                                                     : units.position;
+                        throw ConfigError(fmt::format("gapscope: --{}-unit {} is not known, expected {}", key,
+                                                      shown(unit), expected));
+                      });
   if (!window.empty()) o.window = {window[0], window[1]};
   if (o.window && !(o.window->first < o.window->second))
     throw ConfigError("gapscope: --window goes backwards, expected FROM before TO [s]");
@@ -130,7 +199,7 @@ std::vector<RecordingArguments> RecordingArguments::each_axis() const {
     declared.preset.clear();
     return declared.each_axis();
   }
-  if (axis.empty()) return {*this};
+  if (axis.empty()) return {with_guesses(*this)};
   RecordingArguments pattern = *this;
   pattern.axis = kAllAxes;
   std::vector<RecordingArguments> all;
@@ -151,12 +220,15 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
   unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, V, %, ... (default: as it is)");
   unit("--position-unit", a.units.position,
        "of the position: rad, mrad, deg, arcmin, arcsec, rev, counts; m, mm, um, nm (default: rad, m)");
+  unit("--speed-unit", a.units.speed,
+       "of the speed: rad/s, deg/s, rpm, rev/s; m/s, mm/s, ... (default: rad/s, m/s)");
   unit("--voltage-unit", a.units.voltage, "of the supply's voltage: V, mV (default: V)");
   command
-      .add_option("--input-register", a.registers.input,
-                  "bits of a signed number that was read as an unsigned one: 65535 is -1 of 16")
-      .value("BITS")
-      .within(2, 52);
+      .add_option("--input-register", a.input_register,
+                  "how a signed number was held that was read as an unsigned one: bits of two's complement "
+                  "(65535 is -1 "
+                  "of 16), sign10 (bit 10 above the size), offset2048")
+      .value("FORM");
   command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts").value("N").within(1, 40);
   command
       .add_option("--gear-ratio", a.gear.position,
@@ -201,10 +273,30 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
 
 void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("FILE", a.file, "recording (CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON)").required();
-  command.add_option("--time", a.time, "column (or array) of the time (default: t)").value("NAME");
-  command.add_option("--input", a.input, "column of the input (default: u)").value("NAME");
-  command.add_option("--position", a.position, "column of the position (default: x1, of the load x2)")
+  command.add_option("--time", a.time, "column (or array) of the time (default: t, or as it is called)")
       .value("NAME");
+  command.add_option("--input", a.input, "column of the input (default: u, or as it is called)")
+      .value("NAME");
+  command
+      .add_option("--position", a.position,
+                  "column of the position (default: x1, of the load x2, or as it is called)")
+      .value("NAME");
+  command
+      .add_option("--speed", a.speed,
+                  "column of the speed, of which x1 is the integral, in place of the position")
+      .value("NAME");
+  command
+      .add_option("--columns", a.columns,
+                  "all three at once, by name or place from 1 on; with --rate the last two")
+      .value("TIME,INPUT,POSITION");
+  command.add_option("--rate", a.rate, "of the rows, where the file has no time [Hz]")
+      .value("RATE")
+      .within(1e-3, 1e7);
+  command
+      .add_option("--input-rows", a.input_rows,
+                  "rows that the input is moved by: -1 where a row has what acted before it")
+      .value("ROWS")
+      .within(-kMostInputRows, kMostInputRows);
   std::vector<std::string> presets;
   for (const DrivePreset& p : drive_presets()) presets.emplace_back(p.name);
   command
@@ -238,7 +330,8 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
 
 void require_three_columns(const RecordingColumns& c) {
   const std::string& input = c.reads_input() ? c.input : c.target;
-  if (c.time == input || c.time == c.position || input == c.position)
+  const bool timed = c.rate == 0.0;
+  if ((timed && (c.time == input || c.time == c.position)) || input == c.position)
     throw ConfigError(
         "gapscope: --time, --input and --position name one column twice, expected three columns");
 }

@@ -30,6 +30,8 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
   CheckedRecording checked;
   checked.inspection =
       inspect(c.recording->files.front().path, c.recording->reading_for(UnevenRows::kRefused), c.coordinates);
+  const std::vector<Remark>& undeclared = c.recording->assumed;
+  checked.inspection.assumed.insert(checked.inspection.assumed.begin(), undeclared.begin(), undeclared.end());
   if (!told_as.empty()) checked.inspection.file = told_as;
   judge_for_unit(c.input_facts().unit, checked.inspection);
   judge_for_encoder(c.position_quantum(), c.recording->units.position == "counts", checked.inspection);

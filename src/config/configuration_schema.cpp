@@ -130,6 +130,7 @@ Json recording_schema() {
   column("load_position", "default: x2, where there is one; what encoder: side: load reads");
   column("voltage", "of the supply: u is the input, a duty, times it");
   column("target", "commanded position, in the unit of the position; controller: makes the input of it");
+  column("speed", "in place of position: x1 is its integral");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
@@ -143,10 +144,18 @@ Json recording_schema() {
                     "each file and each held_out; only diagnose reads it"));
   recording.add(
       "columns",
-      columns.schema("names of the columns (of another file than a CSV: its arrays), each another one"));
+      columns.schema("names of the columns (of another file than a CSV: its arrays), or their places from 1 "
+                     "on, each another one"));
+  recording.add("rate", number_schema(kRowRates, "of the rows, where the file has no time"));
+  recording.add("unwrap",
+                described({{"enum", {"auto", true, false}}},
+                          "a position that begins anew after each turn is counted on; auto: where it stays "
+                          "within a turn and steps by nearly a whole one"));
+  recording.add("input_rows",
+                described({{"type", "integer"}, {"minimum", -kMostInputRows}, {"maximum", kMostInputRows}},
+                          "by which u is moved: -1 where a row has what acted before it"));
   recording.add("units", units_schema());
-  recording.add("registers",
-                fields_schema(RegisterBits{}).schema("signed numbers that were read without their sign"));
+  recording.add("registers", registers_schema());
   recording.add("gear_ratio", gear_schema());
   recording.add("window",
                 rising_pair_schema({-kInfinity, kInfinity, "s"},

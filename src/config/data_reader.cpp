@@ -122,7 +122,7 @@ void read_column(const Section& section, const char* key, std::string& name, std
 }
 
 RecordingColumns read_columns(const Value& value) {
-  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target"});
+  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target", "speed"});
   RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
@@ -130,10 +130,15 @@ RecordingColumns read_columns(const Value& value) {
   if (says_temperature(columns.input))
     section.find("input")->fail(
         fmt::format("is {}, a temperature by its name, expected {}", shown(columns.input), kInputsOfDrives));
-  read_column(section, "position", columns.position, taken);
+  const auto speed = section.find("speed");
+  if (speed && section.find("position"))
+    speed->fail(
+        "stands beside position, expected one of the two: x1 is measured, or the integral of the speed");
+  columns.position_is_speed = speed.has_value();
+  read_column(section, speed ? "speed" : "position", columns.position, taken);
   read_column(section, "load_position", columns.load_position, taken);
   columns.load_position_required = section.find("load_position").has_value();
-  columns.position_named = section.find("position").has_value();
+  columns.position_named = speed || section.find("position");
   if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
   if (section.find("target")) read_column(section, "target", columns.target, taken);
   if (!columns.target.empty() && !section.find("input")) columns.input_column = InputColumn::kNone;
@@ -179,8 +184,9 @@ void read_resampling(const Value& value, RecordingConfig& recording) {
 
 RecordingConfig read_recording_block(const Value& value, const std::string& folder,
                                      const EncoderConfig& encoder, Coordinates coordinates) {
-  const Section section(value, {"file", "held_out", "simulated", "columns", "units", "registers",
-                                "gear_ratio", "window", "resample", "lost_rows"});
+  const Section section(
+      value, {"file", "held_out", "simulated", "columns", "units", "registers", "gear_ratio", "window",
+              "resample", "lost_rows", "rate", "unwrap", "input_rows"});
   RecordingConfig recording;
   std::set<std::string> seen;
   recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
@@ -192,6 +198,11 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
     if (const std::string problem = recording.simulated_problem(); !problem.empty()) simulated->fail(problem);
   }
   if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
+  if (const auto rate = section.find("rate")) recording.reading.columns.rate = rate->number(kRowRates);
+  if (const auto unwrap = section.find("unwrap"))
+    recording.reading.unwrap = static_cast<Unwrap>(unwrap->word({"auto", "true", "false"}));
+  if (const auto rows = section.find("input_rows"))
+    recording.reading.input_rows = static_cast<int>(rows->integer(-kMostInputRows, kMostInputRows));
   if (encoder.sides == EncoderSides::kBoth) recording.reading.columns.load_position_required = true;
   read_units(section, encoder, coordinates, recording);
   if (const auto window = section.find("window"))

@@ -44,12 +44,12 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   write_files(out, "simulated", recording.simulated);
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
-  out.entry("time", yaml_text(columns.time));
+  if (columns.rate == 0.0) out.entry("time", yaml_text(columns.time));
   if (columns.reads_input()) out.entry("input", yaml_text(columns.input));
   if (recording.reading.encoder == EncoderSide::kLoad && !columns.position_named)
     out.comment("position: " + yaml_text(columns.position) + " of the motor, not read");
   else
-    out.entry("position", yaml_text(columns.position));
+    out.entry(columns.position_is_speed ? "speed" : "position", yaml_text(columns.position));
   if (columns.load_position_required) {
     out.entry("load_position", yaml_text(columns.load_position));
   } else {
@@ -58,6 +58,7 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   if (!columns.voltage.empty()) out.entry("voltage", yaml_text(columns.voltage));
   if (!columns.target.empty()) out.entry("target", yaml_text(columns.target));
   out.close();
+  internal::config::write_rows(out, recording.reading);
   internal::config::write_units(out, recording);
   if (const auto& window = recording.reading.window)
     out.entry("window", fmt::format("[{}, {}]", window->first, window->second), "s");

@@ -17,7 +17,7 @@ Json unit_schema(std::initializer_list<Quantity> quantities, bool counts) {
     for (const std::string& name : unit_names(q)) names.push_back(name);
     torque = torque || q == Quantity::kTorque;
   }
-  if (counts) names.emplace_back("counts");
+  if (counts) names.insert(names.end(), {"counts", "inc"});
   std::vector<Json> written = {{{"enum", names}},
                                {{"type", "number"}, {"minimum", 1e-15}, {"maximum", 1e15}},
                                {{"type", "string"}, {"pattern", "^[0-9.]+([eE][-+]?[0-9]+)?$"}}};
@@ -30,6 +30,7 @@ Json unit_of(const char* key, std::initializer_list<Quantity> travels,
   const std::string column = key;
   if (column == "time") return unit_schema({Quantity::kTime}, false);
   if (column == "voltage") return unit_schema({Quantity::kVoltage}, false);
+  if (column == "speed") return unit_schema({Quantity::kTurning, Quantity::kSliding}, false);
   return column == "input" ? unit_schema(inputs, false) : unit_schema(travels, true);
 }
 
@@ -42,6 +43,22 @@ Json units_schema() {
         unit_of(key.c_str(), {Quantity::kAngle, Quantity::kLength}, {Quantity::kTorque, Quantity::kForce}),
         schema.value("description", ""));
   return units.schema("a name, or the size of one recorded unit in SI");
+}
+
+Json registers_schema() {
+  MapSchema sign, offset, registers;
+  sign.add("sign_bit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 51}});
+  sign.required = {"sign_bit"};
+  offset.add("offset", number_schema({-1e15, 1e15}, "the register where the number is 0"));
+  offset.required = {"offset"};
+  for (const char* key : {"input", "position", "load_position"})
+    registers.add(key, any_of({{{"type", "integer"}, {"minimum", 0}, {"maximum", 52}},
+                               sign.schema("bit above the size, counted from 0"),
+                               offset.schema("")}));
+  return registers.schema(
+      "how signed numbers were held that were read without their sign: bits of two's complement, a sign bit, "
+      "an "
+      "offset");
 }
 
 Json units_of_axis(Coordinates coordinates) {

@@ -8,6 +8,9 @@ namespace gapscope::internal::config {
 /// recording: units, of whatever axis.
 Json units_schema();
 
+/// recording: registers.
+Json registers_schema();
+
 /// Of a configuration whose axis turns, or slides.
 Json units_of_axis(Coordinates coordinates);
 

@@ -75,12 +75,9 @@ void write_recording(YamlWriter& out, const std::string& folder, const Recording
   else
     out.comment(
         "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
-  const RecordingColumns& c = options.columns;
-  const std::string further = (c.voltage.empty() ? "" : ", voltage: " + yaml_text(c.voltage)) +
-                              (c.target.empty() ? "" : ", target: " + yaml_text(c.target));
-  const std::string input = c.reads_input() ? ", input: " + yaml_text(c.input) : "";
-  out.entry("columns", fmt::format("{{time: {}{}, position: {}{}}}", yaml_text(c.time), input,
-                                   yaml_text(c.position), further));
+  for (const Remark& r : recording.assumed) out.comment("assumed: " + r.text());
+  out.entry("columns", internal::config::columns_text(options.columns));
+  internal::config::write_rows(out, options);
   internal::config::write_units(out, recording);
   if (options.window)
     out.entry("window", fmt::format("[{}, {}]", options.window->first, options.window->second),
@@ -123,6 +120,11 @@ void write_commanding(YamlWriter& out, const RecordingConfig& recording, bool so
       internal::config::controller_output_unit(!recording.reading.columns.voltage.empty(),
                                                sought && !std::isfinite(model.fixed.saturation),
                                                recording.units, coordinates));
+}
+
+bool was_unwrapped(const std::vector<Remark>& assumed) {
+  return std::any_of(assumed.begin(), assumed.end(),
+                     [](const Remark& r) { return r.code() == "position.unwrapped"; });
 }
 
 Begin begin_of(const RecordingFacts& f, bool one_body, const std::optional<JointNumbers>& nominal) {
@@ -244,6 +246,9 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   if (one_body && choice.seen) judge_for(Purpose::kDiagnosis, seen);  // nobody asks the detector
   Starter starter;
   starter.model = choice.why;
+  starter.assumed = config.assumed;
+  starter.assumed.insert(starter.assumed.end(), seen.assumed.begin(), seen.assumed.end());
+  if (options.unwrap == Unwrap::kAuto && was_unwrapped(seen.assumed)) options.unwrap = Unwrap::kAlways;
   if (!choice.seen && choice.structure != StarterModel::kOneBody)
     starter.model += "; where there is none, --model one_body is the quicker model";
   if (!config.held_out.empty()) starter.order = order_told(config, known.options, coordinates);

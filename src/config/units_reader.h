@@ -13,7 +13,13 @@ inline constexpr double kLargestGear = 1e6;
 void read_units(const Section& section, const EncoderConfig& encoder, Coordinates coordinates,
                 RecordingConfig& recording);
 
-/// The same keys, as far as something was declared.
+/// recording: columns, in one line.
+std::string columns_text(const RecordingColumns& columns);
+
+/// rate, unwrap and input_rows of a recording, as far as they are not what goes without saying.
+void write_rows(YamlWriter& out, const ReadOptions& reading);
+
+/// units, registers and gear_ratio, as far as something was declared.
 void write_units(YamlWriter& out, const RecordingConfig& recording);
 
 }  // namespace gapscope::internal::config

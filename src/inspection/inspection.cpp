@@ -55,7 +55,7 @@ Recording on_grid(RecordedRows rows, const ReadOptions& options) {
 std::vector<double> as_it_stands(const RecordedRows& rows, const std::string& path, ReadOptions options) {
   RecordingColumns& columns = options.columns;
   const UnitScale& unit = columns.scales.input;
-  if (!columns.reads_input() || unit.register_bits > 0) return {};
+  if (!columns.reads_input() || unit.form.is_one()) return {};
   if (columns.voltage.empty() && unit.factor == unit.divisor) return rows.u;
   columns.voltage.clear();
   columns.scales.input = {};
@@ -139,6 +139,7 @@ Inspection inspect(const std::string& path, const ReadOptions& options, Coordina
   Inspection inspection;
   inspection.file = path;
   inspection.coordinates = coordinates;
+  inspection.assumed = m.rows.assumed;
   for (const Rule rule : kRules) inspection.findings.push_back(rule(m, inspection.facts));
   return inspection;
 }

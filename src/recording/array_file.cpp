@@ -21,29 +21,6 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{}{}", fmt::join(first, ", "), names.size() > kMost ? ", ..." : "");
 }
 
-/// A column of a table, as it was named.
-struct TableColumn {
-  std::string table;
-  std::size_t index = 0;  ///< from 0
-};
-
-/// Of "q[:, 2]" or "q(:, 3)"; nothing for any other name.
-std::optional<TableColumn> table_column(const std::string& name) {
-  for (const auto& [open, close, first] : {std::tuple{'[', ']', 0u}, {'(', ')', 1u}}) {
-    const auto at = name.rfind(open);
-    if (at == name.npos || at == 0 || name.back() != close) continue;
-    std::string inside = name.substr(at + 1, name.size() - at - 2);
-    inside.erase(std::remove(inside.begin(), inside.end(), ' '), inside.end());
-    if (!inside.starts_with(":,")) continue;
-    unsigned index = 0;
-    const char* const end = inside.data() + inside.size();
-    const auto [read, problem] = std::from_chars(inside.data() + 2, end, index);
-    if (problem == std::errc() && read == end && index >= first)
-      return TableColumn{name.substr(0, at), index - first};
-  }
-  return {};
-}
-
 /// How many numbers there are; any too large one where there are too many.
 std::size_t product(const std::vector<std::size_t>& size) {
   std::size_t all = 1;
@@ -80,6 +57,22 @@ std::vector<double> column_of(ArrayFile& file, const StoredArray& table, std::si
 }
 
 }  // namespace
+
+std::optional<TableColumn> table_column(const std::string& name) {
+  for (const auto& [open, close, first] : {std::tuple{'[', ']', 0u}, {'(', ')', 1u}}) {
+    const auto at = name.rfind(open);
+    if (at == name.npos || at == 0 || name.back() != close) continue;
+    std::string inside = name.substr(at + 1, name.size() - at - 2);
+    inside.erase(std::remove(inside.begin(), inside.end(), ' '), inside.end());
+    if (!inside.starts_with(":,")) continue;
+    unsigned index = 0;
+    const char* const end = inside.data() + inside.size();
+    const auto [read, problem] = std::from_chars(inside.data() + 2, end, index);
+    if (problem == std::errc() && read == end && index >= first)
+      return TableColumn{name.substr(0, at), index - first};
+  }
+  return {};
+}
 
 bool has_vector(ArrayFile& file, const std::string& name) {
   if (file.find(name)) return true;

@@ -32,6 +32,15 @@ class ArrayFile {
   virtual const char* row() const { return "sample"; }  ///< and one element
 };
 
+/// A column of a table, or an element of the list in each field of one, as it was named.
+struct TableColumn {
+  std::string table;
+  std::size_t index = 0;  ///< from 0
+};
+
+/// Of "q[:, 2]" or "q(:, 3)"; nothing for any other name.
+std::optional<TableColumn> table_column(const std::string& name);
+
 /// The vector of real numbers of this name. Of a table with a row for each sample one column is named
 /// "q[:, 0]", counted from 0, or "q(:, 1)", counted from 1.
 /// @throws ConfigError naming the array that is missing, complex, no number or no vector, or too long

@@ -72,6 +72,7 @@ RecordedRows read_arrays(ArrayFile& file, const std::string& path, const Recordi
   RecordedRows rows;
   rows.path = path;
   rows.row = file.row();
+  rows.has_input = has_input;
   for (std::size_t i = 0; i < t.values.size(); ++i) {
     const auto sample = static_cast<std::int64_t>(i) + 1;
     if (!std::isnan(t.values[i]) && !rows.admits(t.values[i], sample, earlier, t.name)) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "recording/csv_row.h"
 #include "recording/limits.h"
 #include "recording/recorded_rows.h"
@@ -31,12 +32,21 @@ struct CsvStream::State {
   void take_line(std::string_view text) {
     if (!row.next(text)) return;
     const Sample s{row.time(), row.input(), row.position()};
+    require_number(row.columns().time, s.t);
+    if (row.has_input()) require_number(row.columns().input, s.u);
+    require_number(row.columns().position, s.x1);
     if (resampler) return bring_to_rate(s);
     if (dt > 0.0) return go_on(s);
     if (first.size() > 0) require_later(s, first.t.back());
     first.t.push_back(s.t), first.u.push_back(s.u), first.x1.push_back(s.x1);
     first.line.push_back(row.line());
     if (first.size() == kClockRows) set_clock();
+  }
+
+  void require_number(const std::string& column, double value) const {
+    if (!std::isnan(value)) return;
+    const std::string text = row.text_of(column);
+    row.fail(fmt::format("{} is {}, expected a finite number", column, text.empty() ? "empty" : shown(text)));
   }
 
   void require_later(const Sample& s, double before) const {

@@ -33,8 +33,18 @@ void RecordedRows::keep(std::size_t first, std::size_t count) {
   command_first += first;
 }
 
+void RecordedRows::reverse() {
+  for (auto* column : {&t, &u, &x1, &x2, &target, &supply}) std::reverse(column->begin(), column->end());
+  std::reverse(line.begin(), line.end());
+  newest_first = false;
+}
+
+void RecordedRows::shift_time(double by) {
+  for (double& time : t) time += by;
+}
+
 bool RecordedRows::admits(double time, std::int64_t of_line, EarlierRow earlier, const std::string& column) {
-  const bool goes_on = t.empty() || time > t.back();
+  const bool goes_on = t.empty() || (newest_first ? time < t.back() : time > t.back());
   if (!goes_on && earlier == EarlierRow::kSkipped) {
     skipped.push_back(of_line);
     return false;

@@ -13,12 +13,20 @@ namespace gapscope::internal::recording {
 /// What becomes of a row whose time is not later than that of the row before.
 enum class EarlierRow { kRefused, kSkipped };
 
+using Numbers = std::vector<double>;
+
+/// A field of a row that has no number.
+struct BlankField {
+  std::int64_t line = 0;
+  std::string column, text;
+};
+
 /// The rows of a recording as they stand in its file, in SI, with the place of each.
 struct RecordedRows {
   std::string path;
   std::string row = "line";    ///< what `line` counts: the lines of a text, else samples or messages
   std::vector<double> t;       ///< [s], strictly increasing
-  std::vector<double> u;       ///< [unit of u]
+  std::vector<double> u;       ///< [unit of u]; NaN in every row where the file has none
   std::vector<double> x1;      ///< [rad]
   std::vector<double> x2;      ///< [rad]; empty if the file has none
   std::vector<double> target;  ///< [rad]; empty where none is read
@@ -28,9 +36,16 @@ struct RecordedRows {
   std::vector<std::int64_t> line;              ///< of each row, from 1
   std::vector<std::int64_t> skipped;  ///< lines of rows that were left out: not later than the row before
   bool open_end = false;              ///< the last line has no end: its last number may be cut off
+  bool has_input = true;              ///< the file has u
+  bool newest_first = false;          ///< time falls from row to row, until reverse()
+  std::vector<BlankField> blanks;     ///< the first of each column; the numbers are NaN there
+  std::vector<Remark> assumed;        ///< how the file was read, and what was mended
 
   std::size_t size() const { return t.size(); }
   void keep(std::size_t first, std::size_t count);  ///< drops all other rows
+
+  void reverse();  ///< the last row becomes the first
+  void shift_time(double by);
 
   /// Whether a row of this time goes on where the rows before it end; one that is skipped is noted.
   /// @throws ConfigError for one that is refused, and for one too many
@@ -48,6 +63,15 @@ RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
                        EarlierRow earlier = EarlierRow::kRefused);
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
 std::vector<std::string> csv_names(const std::string& path);  ///< of its columns; empty where there are none
+
+/// Fields without a number: at most two in a row are bridged, further rows left out. Where a column is filled
+/// in some rows only, as where each row is of one topic, the others are brought to the rows of the position.
+/// @throws ConfigError where too few rows are left
+void settle_blanks(RecordedRows& table);
+
+/// Wraps, jumps and what else is mended before a recording is cut to its window.
+void mend_rows(const ReadOptions& options, RecordedRows& table);
+
 RecordedRows read_arrays(ArrayFile& file, const std::string& path, const RecordingColumns& columns,
                          EarlierRow earlier);
 

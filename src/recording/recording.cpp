@@ -71,6 +71,7 @@ Recording part(const Recording& recording, std::size_t first, std::size_t count)
   r.command_first = recording.command_first + first;
   r.sent = part_of(recording.sent, first, count);
   r.delay = recording.delay;
+  r.assumed = recording.assumed;
   return r;
 }
 

@@ -106,6 +106,7 @@ void command(const ReadOptions& options, RecordedRows& table) {
 RecordedRows read_window(const std::string& path, const ReadOptions& options, EarlierRow earlier) {
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
+  mend_rows(options, table);
   if (options.controller && !options.columns.reads_input()) command(options, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;
@@ -174,7 +175,9 @@ std::optional<InputComparison> compare_with_controller(const std::string& path, 
 Recording read_recording(const std::string& path, const ReadOptions& options) {
   RecordedRows table = internal::recording::read_window(path, options);
   const bool open_end = table.open_end;
-  const double quantum = seen_quantum(table.x1);  // of the raw samples: resampling hides it
+  const double quantum =
+      options.columns.position_is_speed ? 0.0 : seen_quantum(table.x1);  // of the raw samples
+  std::vector<Remark> assumed = std::move(table.assumed);
   Recording r = options.resample_rate ? internal::recording::resample(table, *options.resample_rate)
                                       : internal::recording::recording_of(std::move(table), options.uneven);
   if (r.size() < kFewestSamples) require_samples(table, r.size(), " after resampling");
@@ -183,6 +186,7 @@ Recording read_recording(const std::string& path, const ReadOptions& options) {
   r.file = std::filesystem::path(path).filename().string();
   r.open_end = open_end;
   r.quantum = quantum;
+  r.assumed = std::move(assumed);
   r.encoder = options.encoder;
   if (r.encoder == EncoderSide::kLoad) std::swap(r.x1, r.x2);
   return r;

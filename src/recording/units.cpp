@@ -15,30 +15,62 @@ namespace {
 struct Unit {
   const char* name;
   UnitScale scale;
+  const char* si;  ///< what a number of it is in then; "" of a share of some full scale
 };
 
 constexpr double kPi = std::numbers::pi;
-constexpr UnitScale kOne, kMilli{1.0, 1e3, 0}, kMicro{1.0, 1e6, 0}, kNano{1.0, 1e9, 0}, kKilo{1e3, 1.0, 0},
-    kPercent{1.0, 100.0, 0};
+constexpr double kGravity = 9.80665, kPound = 0.45359237, kInch = 0.0254;  ///< [m/s²], [kg], [m]
+constexpr UnitScale kOne, kMilli{1.0, 1e3}, kMicro{1.0, 1e6}, kNano{1.0, 1e9}, kKilo{1e3, 1.0},
+    kPercent{1.0, 100.0};
 
 /// The first one is that of SI. Current, voltage and a duty serve both kinds of axes:
 /// torque_constant makes them one.
 const std::vector<Unit>& units(Quantity quantity) {
-  static const std::vector<Unit> time = {{"s", kOne}, {"ms", kMilli}, {"us", kMicro}, {"ns", kNano}};
-  static const std::vector<Unit> angle = {{"rad", kOne},
-                                          {"mrad", kMilli},
-                                          {"deg", {kPi, 180.0, 0}},
-                                          {"arcmin", {kPi, 180.0 * 60.0, 0}},
-                                          {"rev", {2 * kPi, 1.0, 0}},
-                                          {"arcsec", {kPi, 180.0 * 3600.0, 0}}};
-  static const std::vector<Unit> length = {{"m", kOne}, {"mm", kMilli}, {"um", kMicro}, {"nm", kNano}};
-  static const std::vector<Unit> torque = {{"N m", kOne},  {"mN m", kMilli}, {"kN m", kKilo},
-                                           {"A", kOne},    {"mA", kMilli},   {"V", kOne},
-                                           {"mV", kMilli}, {"%", kPercent},  {"permille", kMilli}};
-  static const std::vector<Unit> force = {{"N", kOne},    {"mN", kMilli},  {"kN", kKilo},
-                                          {"A", kOne},    {"mA", kMilli},  {"V", kOne},
-                                          {"mV", kMilli}, {"%", kPercent}, {"permille", kMilli}};
-  static const std::vector<Unit> voltage = {{"V", kOne}, {"mV", kMilli}};
+  static const std::vector<Unit> time = {{"s", kOne, "s"},
+                                         {"ms", kMilli, "s"},
+                                         {"us", kMicro, "s"},
+                                         {"ns", kNano, "s"}, {"100ns", {1.0, 1e7}, "s"}};
+  static const std::vector<Unit> angle = {
+      {"rad", kOne, "rad"},           {"mrad", kMilli, "rad"},
+      {"deg", {kPi, 180.0}, "rad"},   {"arcmin", {kPi, 180.0 * 60.0}, "rad"},
+      {"rev", {2 * kPi, 1.0}, "rad"}, {"arcsec", {kPi, 180.0 * 3600.0}, "rad"}};
+  static const std::vector<Unit> length = {{"m", kOne, "m"},    {"cm", kPercent, "m"},
+                                           {"mm", kMilli, "m"}, {"um", kMicro, "m"},
+                                           {"nm", kNano, "m"},  {"in", {kInch, 1.0}, "m"}};
+  static const std::vector<Unit> torque = {{"N m", kOne, "N m"},
+                                           {"mN m", kMilli, "N m"},
+                                           {"kN m", kKilo, "N m"},
+                                           {"lbf in", {kPound * kGravity * kInch, 1.0}, "N m"},
+                                           {"lbf ft", {kPound * kGravity * 12.0 * kInch, 1.0}, "N m"},
+                                           {"kgf cm", {kGravity, 100.0}, "N m"},
+                                           {"A", kOne, "A"},
+                                           {"mA", kMilli, "A"},
+                                           {"V", kOne, "V"},
+                                           {"mV", kMilli, "V"},
+                                           {"%", kPercent, ""},
+                                           {"permille", kMilli, ""}};
+  static const std::vector<Unit> force = {{"N", kOne, "N"},
+                                          {"mN", kMilli, "N"},
+                                          {"kN", kKilo, "N"},
+                                          {"lbf", {kPound * kGravity, 1.0}, "N"},
+                                          {"kip", {1e3 * kPound * kGravity, 1.0}, "N"},
+                                          {"kgf", {kGravity, 1.0}, "N"},
+                                          {"A", kOne, "A"},
+                                          {"mA", kMilli, "A"},
+                                          {"V", kOne, "V"},
+                                          {"mV", kMilli, "V"},
+                                          {"%", kPercent, ""},
+                                          {"permille", kMilli, ""}};
+  static const std::vector<Unit> voltage = {{"V", kOne, "V"}, {"mV", kMilli, "V"}};
+  static const std::vector<Unit> turning = {{"rad/s", kOne, "rad/s"},
+                                            {"deg/s", {kPi, 180.0}, "rad/s"},
+                                            {"rpm", {kPi, 30.0}, "rad/s"},
+                                            {"rev/s", {2 * kPi, 1.0}, "rad/s"}};
+  static const std::vector<Unit> sliding = {{"m/s", kOne, "m/s"},
+                                            {"mm/s", kMilli, "m/s"},
+                                            {"m/min", {1.0, 60.0}, "m/s"},
+                                            {"mm/min", {1.0, 6e4}, "m/s"},
+                                            {"in/s", {kInch, 1.0}, "m/s"}};
   switch (quantity) {
     case Quantity::kTime:
       return time;
@@ -52,6 +84,10 @@ const std::vector<Unit>& units(Quantity quantity) {
       return force;
     case Quantity::kVoltage:
       return voltage;
+    case Quantity::kTurning:
+      return turning;
+    case Quantity::kSliding:
+      return sliding;
   }
   return time;
 }
@@ -74,15 +110,15 @@ std::optional<UnitScale> from_number(std::string_view text) {
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem != std::errc() || end != text.data() + text.size()) return {};
   if (!(value >= kSmallest && value <= kLargest)) return {};
-  return UnitScale{value, 1.0, 0};
+  return UnitScale{value, 1.0};
 }
 
 }  // namespace
 
-double UnitScale::as_signed(double recorded) const {
-  return register_bits > 0 && recorded >= std::ldexp(1.0, register_bits - 1)
-             ? recorded - std::ldexp(1.0, register_bits)
-             : recorded;
+double RegisterForm::number(double recorded) const {
+  if (sign_bit > 0 && recorded >= std::ldexp(1.0, sign_bit)) return std::ldexp(1.0, sign_bit) - recorded;
+  if (bits > 0 && recorded >= std::ldexp(1.0, bits - 1)) return recorded - std::ldexp(1.0, bits);
+  return recorded - offset;
 }
 
 std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared) {
@@ -93,12 +129,9 @@ std::optional<UnitScale> unit_scale(Quantity quantity, std::string_view declared
 }
 
 std::string si_unit(Quantity quantity, std::string_view written) {
-  const std::vector<Unit>& known = units(quantity);
   const std::string declared = as_in_table(quantity, written);
-  const auto named = [&](const Unit& unit) { return declared == unit.name; };
-  if (declared == "%" || declared == "permille" || std::none_of(known.begin(), known.end(), named)) return "";
-  for (const char* unit : {"N m", "N", "A", "V", "rad", "m", "s"})
-    if (declared.ends_with(unit) && unit_scale(quantity, unit)) return unit;
+  for (const Unit& unit : units(quantity))
+    if (declared == unit.name) return unit.si;
   return "";
 }
 

@@ -51,9 +51,27 @@ void fields(Archive& archive, RecordingFacts& f) {
   archive("rest_share", f.rest_share);
 }
 
+/// What was taken for granted.
+struct Assumption {
+  std::string code, told;
+};
+
+template <class Archive>
+void fields(Archive& archive, Assumption& a) {
+  archive("code", a.code);
+  archive("told", a.told);
+}
+
+std::vector<Assumption> assumptions_of(const Inspection& inspection) {
+  std::vector<Assumption> all;
+  for (const Remark& r : inspection.assumed) all.push_back({r.code(), r.text(inspection.coordinates)});
+  return all;
+}
+
 /// What was found, by which version, read in which way.
 struct InspectionDocument {
   Inspection inspection;
+  std::vector<Assumption> assumed;
   std::string version, configuration;
 };
 
@@ -70,6 +88,7 @@ void fields(Archive& archive, InspectionDocument& d) {
                                 {Purpose::kFit, "fit"},
                                 {Purpose::kDiagnosis, "diagnosis"}});
   archive("spoilt", spoilt);
+  archive.list("assumed", d.assumed);
   archive.list("findings", i.findings);
   archive.single("facts", i.facts);
   archive.configuration(d.configuration);
@@ -92,7 +111,8 @@ bool is_inspection_file(const std::string& path) {
 }
 
 std::string inspection_json(const Inspection& inspection, const std::string& configuration) {
-  internal::results::InspectionDocument document{inspection, version(), configuration};
+  internal::results::InspectionDocument document{inspection, internal::results::assumptions_of(inspection),
+                                                 version(), configuration};
   std::string schema = internal::results::kCheckSchema;
   internal::results::JsonWriter writer;
   writer("schema", schema);

@@ -65,11 +65,11 @@ TEST(Inspection, ARegisterWithoutItsSignIsSeenBehindUnitAndSupply) {
   const TemporaryFile file(text);
   ReadOptions options;
   options.columns.voltage = "volts";
-  options.columns.scales.input = {0.0011299, 1.0, 0};
+  options.columns.scales.input = {0.0011299, 1.0};
   const Inspection blind = inspect(file.path(), options);
   EXPECT_EQ(finding(blind, "input").severity, Severity::kSpoils);
   EXPECT_THAT(finding(blind, "input").advice, HasSubstr("--input-register 16"));
-  options.columns.scales.input.register_bits = 16;
+  options.columns.scales.input.form.bits = 16;
   EXPECT_EQ(finding(inspect(file.path(), options), "input").severity, Severity::kFine);
 }
 

@@ -63,8 +63,8 @@ TEST(CsvDialect, ADutyTimesTheSupplysVoltageIsTheInput) {
   const TemporaryFile file(text);
   ReadOptions options;
   options.columns.voltage = "volts";
-  options.columns.scales.input = {1.0, 885.0, 0};
-  options.columns.scales.voltage = {1.0, 1000.0, 0};
+  options.columns.scales.input = {1.0, 885.0};
+  options.columns.scales.voltage = {1.0, 1000.0};
   const Recording r = read_recording(file.path(), options);
   for (int i = 0; i < 60; ++i) EXPECT_DOUBLE_EQ(r.u[i], (i / 885.0) * (7.4 - 0.01 * i));
   EXPECT_THAT(refusal("t,u,x1\n" + rows(60), options), HasSubstr("there is no column 'volts'"));
@@ -76,7 +76,7 @@ TEST(CsvDialect, ARegisterThatWasReadWithoutItsSignIsSignedAgain) {
     text += std::to_string(0.01 * i) + "," + std::to_string((65536 + i - 30) % 65536) + ",0\n";
   const TemporaryFile file(text);
   ReadOptions options;
-  options.columns.scales.input.register_bits = 16;
+  options.columns.scales.input.form.bits = 16;
   const Recording r = read_recording(file.path(), options);
   for (int i = 0; i < 60; ++i) EXPECT_EQ(r.u[i], i - 30);
 }

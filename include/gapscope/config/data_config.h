@@ -34,8 +34,9 @@ struct RecordingConfig {
   ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
   bool resample_for_detector = false;  ///< fit and diagnose take the rows as they are
   DeclaredUnits units;
-  RegisterBits registers;
+  RegisterForms registers;
   GearRatios gear;
+  std::vector<Remark> assumed = {};  ///< what of this nobody declared
 
   /// @returns what is wrong with the number of simulated recordings; empty: nothing
   std::string simulated_problem() const;

@@ -33,17 +33,14 @@ struct EncoderConfig {
 /// `recording: units:` as it is written there; empty: s, rad (m), and u as it was recorded. Each is a name
 /// (see known_units()) or a number; the position may be in counts, of which encoder: says how large one is.
 struct DeclaredUnits {
-  std::string time, input, position, load_position, voltage;
+  std::string time, input, position, load_position, voltage, speed;
   void fields(FieldVisitor& v);
 };
 
-/// `recording: registers:` – bits of a drive's register that holds a signed number and was read as an
-/// unsigned one, so that 65535 is -1; 0: the numbers are as they are.
-struct RegisterBits {
-  int input = 0;
-  int position = 0;
-  int load_position = 0;
-  void fields(FieldVisitor& v);
+/// `recording: registers:` – how a drive's register holds a signed number that was read as an unsigned one:
+/// bits of two's complement (`16`), or `{sign_bit: 10}` or `{offset: 2048}`.
+struct RegisterForms {
+  RegisterForm input, position, load_position;
 };
 
 /// `recording: gear_ratio:` – turns of the axis whose position was recorded for one turn of the axis that the
@@ -55,9 +52,10 @@ struct GearRatios {
 };
 
 /// What units, registers and gears make of the columns.
+/// @param speed   the column of the position has its speed
 /// @param refuse  is told the key ("position") whose unit is not known, and what was expected; does not
 /// return
-ColumnScales declared_scales(const DeclaredUnits& units, const RegisterBits& registers,
+ColumnScales declared_scales(const DeclaredUnits& units, const RegisterForms& registers,
                              const GearRatios& gear, const EncoderConfig& encoder, Coordinates coordinates,
                              const std::function<void(const char* key, const std::string& expected)>& refuse);
 

@@ -20,6 +20,7 @@ struct Starter {
   bool guesses = false;               ///< a number in it is marked GUESS
   std::string model;                  ///< which structure was chosen, and why
   std::vector<std::string> remarks;   ///< what of a simulator's model was left aside, or is doubtful
+  std::vector<Remark> assumed = {};   ///< how the recording was read, where nobody declared it
   std::vector<std::string> spoiling;  ///< what `check` says will spoil the estimates
   std::string hangs;  ///< where the arm of an anchor hangs, as the recording shows it; empty: taken as 0
   std::string order;  ///< which of two recordings is better fitted, and why; empty where there is one

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
+#include "gapscope/base/remark.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
 
@@ -73,9 +74,10 @@ struct Inspection {
   Coordinates coordinates;
   RecordingFacts facts;
   std::vector<Finding> findings;
-  Purpose purpose = Purpose::kAll;  ///< that they are judged for
-  bool spoilt() const;              ///< whether any finding is kSpoils
-  std::string report() const;       ///< a line for each finding and each advice, and the sum: terminal
+  Purpose purpose = Purpose::kAll;   ///< that they are judged for
+  std::vector<Remark> assumed = {};  ///< how the file was read, where that does not go without saying
+  bool spoilt() const;               ///< whether any finding is kSpoils
+  std::string report() const;        ///< a line for each finding and each advice, and the sum: terminal
 };
 
 /// Puts every question to a recording. Only t, u and x1 are looked at. Rows that do not go forward in time

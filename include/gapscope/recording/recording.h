@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gapscope/base/encoder_side.h"
+#include "gapscope/base/remark.h"
 #include "gapscope/recording/controller.h"
 
 namespace gapscope {
@@ -76,6 +77,7 @@ struct Recording {
   std::size_t command_first = 0;                    ///< the row of the first sample
   std::vector<double> sent = {};                    ///< see MotorTrace; empty: u is all there is
   double delay = 0.0;                               ///< of what was sent [s]
+  std::vector<Remark> assumed = {};  ///< how its file was read, where that does not go without saying
 
   /// What estimators read [rad].
   const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@ namespace gapscope {
 /// What the units of the columns are in SI; an input without a unit of its own stays as it was recorded.
 struct ColumnScales {
   UnitScale time, input, position, load_position, voltage = {};
+  /// After so much a position may begin anew, as a single turn does [rad]; 0: it does not turn.
+  double turn = 2.0 * std::numbers::pi;
 };
 
 /// What a file must have in the column of the input.
@@ -23,7 +26,9 @@ enum class InputColumn {
   kNone,      ///< it is not read: there is only the target
 };
 
-/// Names of the columns (of another file than a CSV: its arrays); load_position is optional in the file.
+/// Names of the columns (of another file than a CSV: its arrays), or where no column has that name its place,
+/// from 1; load_position is optional in the file. An element of a list in each cell is "q[:, 0]", as of a
+/// table.
 struct RecordingColumns {
   std::string time = "t";
   std::string input = "u";
@@ -35,6 +40,9 @@ struct RecordingColumns {
   ColumnScales scales;
   std::string voltage = {};  ///< of the supply: u is the input, a duty, times it; empty: there is none
   std::string target = {};   ///< of the commanded position, in units of the position; empty: there is none
+
+  bool position_is_speed = false;  ///< the column `position` has the speed, which is integrated over time
+  double rate = 0.0;               ///< at which the rows come [Hz]; 0: `time` is the column of their times
 
   bool reads_input() const { return input_column != InputColumn::kNone; }
   /// Whether an encoder on the load is read from the column load_position; else it is from the one that alone
@@ -56,6 +64,13 @@ enum class LostRows {
   kBridged,  ///< a line to the next row: the drive went on getting new ones, see bridge_lost_rows()
 };
 
+/// What becomes of a position that begins anew after each turn.
+enum class Unwrap {
+  kAuto,    ///< it is counted on where it stays within a turn and steps by nearly a whole one
+  kAlways,  ///< wherever it steps by more than half a turn
+  kNever,
+};
+
 struct ReadOptions {
   RecordingColumns columns;
   std::optional<std::pair<double, double>> window;  ///< part of the file that is used [s]
@@ -65,18 +80,29 @@ struct ReadOptions {
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
   std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
   double gain_times = 1.0;                    ///< its leading number in this file, over that one [-]
+  Unwrap unwrap = Unwrap::kAuto;
+  int input_rows =
+      0;  ///< by which the recorded input is moved: with -1 that of the next row acts from this one
 };
+
+/// No input is moved by more rows than this.
+constexpr int kMostInputRows = 100;
 
 /// Fewer samples than this are no recording.
 constexpr std::size_t kFewestSamples = 50;
 
 /// Reads a recording: a file named *.mat is MATLAB's (version 4, 5 or 7.3), *.npz NumPy's, *.h5 or *.hdf5 an
 /// HDF5, *.mcap and *.db3 logs of robots, *.json and *.jsonl JSON, of which each column is a vector of real
-/// numbers, all equally long, or a column of a table, named "q[:, 0]"; any other one is a CSV with a header,
-/// in which `#` comments and extra columns are ignored; its columns stand between commas, semicolons or tabs,
-/// beside the last two with a decimal comma or point. Sampling is uniform when every step is within 0.1 % of
-/// the mean step; anything else is refused with the figure, taken with its stamps, or resampled on request:
-/// x1 and x2 linearly, u as the mean of the held input over each new interval, so that its impulse is kept.
+/// numbers, all equally long, or a column of a table, named "q[:, 0]"; any other one is a text with a table,
+/// which is found in it: below other lines, with a header, a row of units or neither, `#`, `%` and `//`
+/// comments and extra columns ignored; its columns stand between commas, semicolons, tabs or blanks, beside
+/// the last three with a decimal comma or point. Times may be those of a clock, and the newest row the first.
+/// Short blanks ("nan", nothing) are bridged, longer ones left out; columns that are filled in turn are
+/// brought to the rows of the position; wraps are undone, and single rows that jump and come back are drawn
+/// between their neighbours. What was done is in `assumed`. Sampling is uniform when every step is within 0.1
+/// % of the mean step; anything else is refused with the figure, taken with its stamps, or resampled on
+/// request: x1 and x2 linearly, u as the mean of the held input over each new interval, so that its impulse
+/// is kept.
 /// @throws ConfigError with file and line (sample of an array): missing or empty file, missing column, a
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.

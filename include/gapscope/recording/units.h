@@ -6,19 +6,29 @@
 
 namespace gapscope {
 
+/// How a register of a drive holds a signed number that was read as an unsigned one; all 0: it is the number.
+struct RegisterForm {
+  int bits = 0;         ///< of two's complement: 65535 of 16 is -1
+  int sign_bit = 0;     ///< above the size, counted from 0: 1034 with bit 10 is -10
+  double offset = 0.0;  ///< the register where the number is 0
+
+  double number(double recorded) const;
+  bool is_one() const { return bits > 0 || sign_bit > 0 || offset != 0.0; }
+  bool operator==(const RegisterForm&) const = default;
+};
+
 /// What one unit of a recorded column is in SI: SI = recorded · factor / divisor. Two numbers, so that 7 ms
 /// are 0.007 s to the last bit.
 struct UnitScale {
   double factor = 1.0;
   double divisor = 1.0;
-  int register_bits =
-      0;  ///< of a register that holds a signed number and was read as an unsigned one; 0: none
-  double operator()(double recorded) const { return as_signed(recorded) * factor / divisor; }
-  double as_signed(double recorded) const;  ///< two's complement: 65535 of 16 bits is -1
+  RegisterForm form = {};  ///< of the register that was recorded
+  double operator()(double recorded) const { return form.number(recorded) * factor / divisor; }
 };
 
 /// What a column measures. The input of a drive has its own quantities: a torque, a force or what makes one.
-enum class Quantity { kTime, kAngle, kLength, kTorque, kForce, kVoltage };
+/// The last two are speeds.
+enum class Quantity { kTime, kAngle, kLength, kTorque, kForce, kVoltage, kTurning, kSliding };
 
 /// The scale of a declared unit: a name ("ms", "deg", "mN m"), or how much SI one recorded unit is, as a
 /// number > 0. Nothing for any other text.

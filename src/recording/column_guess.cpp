@@ -1,0 +1,258 @@
+#include "gapscope/recording/column_guess.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
+#include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
+#include "gapscope/recording/axes.h"
+#include "gapscope/recording/column_name.h"
+#include "recording/column_words.h"
+#include "recording/file_kind.h"
+#include "recording/recorded_rows.h"
+#include "recording/row_clock.h"
+
+namespace gapscope {
+namespace {
+
+using internal::recording::ColumnRole;
+using internal::recording::FieldKind;
+using internal::recording::kind_of_field;
+using internal::recording::likeness;
+using internal::recording::shared_words;
+using internal::recording::TableForm;
+
+/// A file's columns as they are looked at.
+struct Seen {
+  TableForm form;  ///< of a text
+  std::vector<std::string> names;
+  bool is_text = false;
+
+  bool named() const { return !is_text || form.header > 0; }
+  bool has(const std::string& name) const { return contains(names, name); }
+};
+
+Seen seen_in(const std::string& path) {
+  Seen seen;
+  seen.names = recorded_names(path);
+  seen.is_text = internal::recording::kind_of(path).ending.empty();
+  if (seen.is_text) seen.form = internal::recording::table_of(path);
+  return seen;
+}
+
+/// Place of a name in the header of a text; -1: none.
+int place_in(const TableForm& form, const std::string& name) {
+  const auto found = std::find(form.names.begin(), form.names.end(), name);
+  if (found != form.names.end()) return static_cast<int>(found - form.names.begin());
+  int at = 0;
+  const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), at);
+  const bool whole = problem == std::errc() && end == name.data() + name.size();
+  return whole && at >= 1 && at <= static_cast<int>(form.names.size()) ? at - 1 : -1;
+}
+
+std::vector<std::string> fields_of(const TableForm& form, int place) {
+  std::vector<std::string> fields;
+  for (const auto& row : form.rows)
+    if (place >= 0 && static_cast<std::size_t>(place) < row.size())
+      fields.push_back(row[static_cast<std::size_t>(place)]);
+  return fields;
+}
+
+/// The numbers of the first rows, those of a clock in their unit.
+std::vector<double> numbers_of(const TableForm& form, int place) {
+  std::vector<double> numbers;
+  for (std::string text : fields_of(form, place)) {
+    if (form.separator != ',') std::replace(text.begin(), text.end(), ',', '.');
+    double value = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem == std::errc() && end == text.data() + text.size()) numbers.push_back(value);
+  }
+  return numbers;
+}
+
+bool has_numbers(const Seen& seen, const std::string& name) {
+  if (!seen.is_text) return true;
+  const int place = place_in(seen.form, name);
+  if (place < 0) return true;  // an element of a list
+  const auto fields = fields_of(seen.form, place);
+  return std::any_of(fields.begin(), fields.end(), [&](const std::string& field) {
+    const FieldKind kind = kind_of_field(field, seen.form.separator);
+    return kind == FieldKind::kNumber || kind == FieldKind::kStamp;
+  });
+}
+
+/// The column whose name says the role best, and of these the one that shares most words with `beside`.
+std::string by_name(const Seen& seen, ColumnRole role, const std::string& beside,
+                    const std::vector<std::string>& taken) {
+  std::string best;
+  std::pair<int, int> rank = {0, 0};
+  for (const std::string& name : seen.names) {
+    if (contains(taken, name) || !has_numbers(seen, name)) continue;
+    const std::pair<int, int> now = {likeness(name, role), beside.empty() ? 0 : shared_words(name, beside)};
+    if (now.first > 0 && now > rank) rank = now, best = name;
+  }
+  return best;
+}
+
+/// Of a table without names: the first column that rises from row to row.
+std::string rising_column(const Seen& seen) {
+  for (std::size_t i = 0; i < seen.form.names.size(); ++i) {
+    const auto fields = fields_of(seen.form, static_cast<int>(i));
+    if (!fields.empty() && kind_of_field(fields.front(), seen.form.separator) == FieldKind::kStamp)
+      return seen.form.names[i];
+    const auto x = numbers_of(seen.form, static_cast<int>(i));
+    if (x.size() < 3 || x.size() != fields.size()) continue;
+    const auto falls = std::adjacent_find(x.begin(), x.end(), [](double a, double b) { return !(b > a); });
+    if (falls == x.end()) return seen.form.names[i];
+  }
+  return "";
+}
+
+std::string listed(const Seen& seen) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < std::min(kMost, seen.names.size()); ++i)
+    all.push_back(seen.is_text && seen.named() && i < seen.form.names.size()
+                      ? fmt::format("{} {}", i + 1, shown(seen.names[i]))
+                      : shown(seen.names[i]));
+  return all.empty() ? "none"
+                     : fmt::format("{}{}", fmt::join(all, ", "), seen.names.size() > kMost ? ", ..." : "");
+}
+
+[[noreturn]] void refuse(const std::string& path, const Seen& seen, const char* what, const char* remedy) {
+  const std::string at =
+      seen.is_text && seen.form.header > 0 ? fmt::format("{}:{}", path, seen.form.header) : path;
+  throw ConfigError(fmt::format("{}: no column is seen to be the {} among {}, expected its name or place: {}",
+                                at, what, listed(seen), remedy));
+}
+
+/// The unit of a time without one, by how it goes on: drives are not recorded once in a second.
+std::string unit_by_steps(const std::vector<double>& t) {
+  constexpr double kLongestSecond = 1.0, kLongest = 0.064;  ///< from row to row [s]
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] != t[i - 1]) steps.push_back(std::abs(t[i] - t[i - 1]));
+  if (steps.size() < 3) return "";
+  const double step = median(std::move(steps));
+  if (step < kLongestSecond) return "";
+  const bool ticks = std::abs(t.front()) > 1e17 && std::abs(t.front()) < 9e17;  // since 1601, or the year 1
+  if (ticks) return "100ns";
+  for (const auto& [unit, size] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}})
+    if (step * size <= kLongest) return unit;
+  return "";
+}
+
+void say(ColumnGuess& guess, const char* code, const char* words, std::vector<Remark::Value> values) {
+  guess.told.emplace_back(code, words, std::move(values));
+}
+
+/// What stands below the names, of a column that has no unit in its name and none declared.
+void take_unit(const Seen& seen, const std::string& column, std::initializer_list<Quantity> quantities,
+               std::string& unit, ColumnGuess& guess) {
+  const int place = place_in(seen.form, column);
+  if (!unit.empty() || column.empty() || place < 0 ||
+      static_cast<std::size_t>(place) >= seen.form.units.size())
+    return;
+  std::string below = seen.form.units[static_cast<std::size_t>(place)];
+  if (below.starts_with('[') || below.starts_with('(')) below = below.substr(1, below.size() - 2);
+  for (const Quantity quantity : quantities) {
+    if (unit.empty()) unit = unit_in_name("x [" + below + "]", quantity);
+  }
+  if (!unit.empty()) say(guess, "unit.below_name", "{} in {}", {shown(column), unit});
+}
+
+bool are_whole(const std::vector<double>& x) {
+  return x.size() > 2 && std::any_of(x.begin(), x.end(), [&](double v) { return v != x.front(); }) &&
+         std::all_of(x.begin(), x.end(), [](double v) { return v == std::round(v); });
+}
+
+void take_units(const Seen& seen, bool rated, ColumnGuess& guess) {
+  guess.whole_positions =
+      seen.is_text && are_whole(numbers_of(seen.form, place_in(seen.form, guess.position)));
+  take_unit(seen, guess.time, {Quantity::kTime}, guess.time_unit, guess);
+  take_unit(seen, guess.input, {Quantity::kTorque, Quantity::kForce}, guess.input_unit, guess);
+  take_unit(seen, guess.position, {Quantity::kAngle, Quantity::kLength}, guess.position_unit, guess);
+  take_unit(seen, guess.speed, {Quantity::kTurning, Quantity::kSliding}, guess.speed_unit, guess);
+  if (rated || !seen.is_text || !guess.time_unit.empty() ||
+      !unit_in_name(guess.time, Quantity::kTime).empty())
+    return;
+  const int place = place_in(seen.form, guess.time);
+  const std::string unit = unit_by_steps(numbers_of(seen.form, place));
+  if (unit.empty()) return;
+  guess.time_unit = unit;
+  say(guess, "unit.by_steps", "{} in {}, as it goes on", {shown(guess.time), unit});
+}
+
+/// What is in each field of a column that is a list: its first element.
+std::string element_of(const Seen& seen, const std::string& name) {
+  return seen.has(name + "[:, 0]") ? name + "[:, 0]" : name;
+}
+
+void take_by_order(const Seen& seen, bool rated, ColumnGuess& guess, const std::string& path) {
+  if (!rated && guess.time.empty()) guess.time = rising_column(seen);
+  std::vector<std::string> left;
+  for (const std::string& name : seen.names)
+    if (name != guess.time && name != guess.input && name != guess.position && has_numbers(seen, name))
+      left.push_back(name);
+  const bool none =
+      guess.input.empty() && guess.position.empty() && guess.speed.empty() && guess.target.empty();
+  if (!rated && guess.time.empty())
+    refuse(path, seen, "time", "--time NAME, or --rate HZ where there is none");
+  if (!none || left.size() != 2)
+    refuse(path, seen, "input and the position",
+           rated ? "--columns INPUT,POSITION" : "--columns TIME,INPUT,POSITION");
+  guess.input = left[0], guess.position = left[1];
+  say(guess, "columns.by_order", "{}input {}, position {}, by their order",
+      {rated ? std::string() : "time " + shown(guess.time) + ", ", shown(guess.input),
+       shown(guess.position)});
+}
+
+void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::string& path) {
+  std::vector<std::string> told;
+  const auto taken = [&] {
+    return std::vector<std::string>{guess.time, guess.input, guess.position, guess.speed, guess.target};
+  };
+  const auto take = [&](std::string& column, ColumnRole role, const char* word, const std::string& beside) {
+    if (!column.empty()) return;
+    column = element_of(seen, by_name(seen, role, beside, taken()));
+    if (!column.empty()) told.push_back(fmt::format("{} {}", word, shown(column)));
+  };
+  if (!rated) take(guess.time, ColumnRole::kTime, "time", "");
+  if (guess.speed.empty()) take(guess.position, ColumnRole::kPosition, "position", guess.input);
+  if (guess.position.empty()) take(guess.speed, ColumnRole::kSpeed, "speed", guess.input);
+  const std::string& beside = guess.position.empty() ? guess.speed : guess.position;
+  if (guess.target.empty()) take(guess.input, ColumnRole::kInput, "input", beside);
+  if (guess.input.empty()) take(guess.target, ColumnRole::kTarget, "target", beside);
+  if (!rated && guess.time.empty())
+    refuse(path, seen, "time", "--time NAME, or --rate HZ where there is none");
+  if (beside.empty())
+    refuse(path, seen, "position", "--position NAME, or --speed NAME, or --columns TIME,INPUT,POSITION");
+  if (guess.input.empty() && guess.target.empty())
+    refuse(path, seen, "input",
+           "--input NAME of a torque, force, current, voltage or duty, or --target NAME, or "
+           "--columns TIME,INPUT,POSITION");
+  if (!told.empty())
+    say(guess, "columns.by_name", "{}", {fmt::format("{}, by their names", fmt::join(told, ", "))});
+}
+
+}  // namespace
+
+ColumnGuess guess_columns(const std::string& path, ColumnGuess guess, bool rated) {
+  const Seen seen = seen_in(path);
+  const bool complete = (rated || !guess.time.empty()) && !(guess.position.empty() && guess.speed.empty()) &&
+                        !(guess.input.empty() && guess.target.empty());
+  if (!complete && (seen.names.empty() || (seen.is_text && seen.form.first == 0))) return guess;
+  if (!complete) (seen.named() ? take_by_name : take_by_order)(seen, rated, guess, path);
+  take_units(seen, rated, guess);
+  return guess;
+}
+
+}  // namespace gapscope

@@ -1,0 +1,392 @@
+// The table of a log is found wherever and however it stands in it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "gapscope/base/text.h"
+#include "gapscope/recording/column_guess.h"
+#include "gapscope/recording/column_name.h"
+#include "recording/csv_rows.h"
+
+namespace gapscope {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using testing::TemporaryFile;
+
+constexpr int kLogRows = 300;
+constexpr double kLogStep = 0.01;  // [s]
+
+double input_at(int i) { return 0.5 * std::cos(0.07 * i); }
+double position_at(int i) { return 0.3 * std::sin(0.05 * i); }
+
+/// Rows of a text, each made of its number.
+std::string lines(const std::function<std::string(int)>& line, int count = kLogRows) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += line(i) + "\n";
+  return text;
+}
+
+/// t, u, x1 with these marks between and within them.
+std::string plain(int i, const std::string& separator = ",", char decimal = '.') {
+  std::string text =
+      fmt::format("{:.4f}{}{:.8f}{}{:.8f}", kLogStep * i, separator, input_at(i), separator, position_at(i));
+  for (char& c : text) c = c == '.' ? decimal : c;
+  return text;
+}
+
+std::string clock(int i, const char* form) {
+  const int ms = i * 10;
+  return fmt::format(fmt::runtime(form), ms / 60000, ms / 1000 % 60, ms % 1000);
+}
+
+std::string values(int i) { return fmt::format(",{:.8f},{:.8f}", input_at(i), position_at(i)); }
+
+/// As `check` and `init` read a file of which nothing, or only a rate, is told.
+Recording as_seen(const std::string& path, double rate, ColumnGuess declared,
+                  std::vector<std::string>& codes) {
+  const ColumnGuess seen = guess_columns(path, std::move(declared), rate > 0.0);
+  ReadOptions options;
+  RecordingColumns& c = options.columns;
+  c.time = seen.time, c.input = seen.input, c.rate = rate;
+  c.position = seen.position.empty() ? seen.speed : seen.position;
+  c.position_is_speed = seen.position.empty();
+  const auto scale = [](Quantity q, const std::string& unit, const std::string& column) {
+    return unit_scale(q, unit.empty() ? unit_in_name(column, q) : unit).value_or(UnitScale{});
+  };
+  c.scales.time = scale(Quantity::kTime, seen.time_unit, c.time);
+  c.scales.input = scale(Quantity::kTorque, seen.input_unit, c.input);
+  c.scales.position = c.position_is_speed ? scale(Quantity::kTurning, seen.speed_unit, c.position)
+                                          : scale(Quantity::kAngle, seen.position_unit, c.position);
+  options.uneven = UnevenRows::kStamped;
+  const Recording r = read_recording(path, options);
+  for (const Remark& remark : seen.told) codes.push_back(remark.code());
+  for (const Remark& remark : r.assumed) codes.push_back(remark.code());
+  return r;
+}
+
+struct LogForm {
+  const char* name;
+  std::string text;
+  std::vector<std::string> codes;  ///< that must be told
+  double rate = 0.0;
+  double near = 1e-6;  ///< of input and position
+};
+
+void PrintTo(const LogForm& v, std::ostream* out) { *out << v.name; }
+
+class TableFormTest : public ::testing::TestWithParam<LogForm> {};
+
+TEST_P(TableFormTest, GivesTheSameRecording) {
+  const LogForm& v = GetParam();
+  const TemporaryFile file(v.text);
+  std::vector<std::string> codes;
+  const Recording r = as_seen(file.path(), v.rate, {}, codes);
+  for (const std::string& code : v.codes) EXPECT_THAT(codes, Contains(code));
+  ASSERT_EQ(r.size(), static_cast<std::size_t>(kLogRows));
+  for (int i = 0; i < kLogRows; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    ASSERT_NEAR(r.time(at) - r.time(0), kLogStep * i, 1e-7) << i;
+    ASSERT_NEAR(r.u[at], input_at(i), v.near) << i;
+    ASSERT_NEAR(r.x1[at], position_at(i), v.near) << i;
+  }
+}
+
+const std::string kUsualNames = "t,u,x1\n";
+
+const std::vector<LogForm> kLogForms = {
+    {"plain", kUsualNames + lines([](int i) { return plain(i); }), {}},
+    {"no_header", lines([](int i) { return plain(i); }), {"table.no_names", "columns.by_order"}},
+    {"no_header_blanks", lines([](int i) { return plain(i, "   "); }), {"table.no_names", "table.blanks"}},
+    {"blanks", "t u x1\n" + lines([](int i) { return plain(i, " "); }), {"table.blanks"}},
+    {"blanks_before_rows",
+     "  t   u  x1\n" + lines([](int i) { return "   " + plain(i, "   "); }),
+     {"table.blanks"}},
+    {"blanks_and_decimal_comma",
+     "t u x1\n" + lines([](int i) { return plain(i, " ", ','); }),
+     {"table.blanks"}},
+    {"tabs", "t\tu\tx1\n" + lines([](int i) { return plain(i, "\t"); }), {}},
+    {"semicolons_and_decimal_comma", "t;u;x1\n" + lines([](int i) { return plain(i, ";", ','); }), {}},
+    {"semicolon_at_the_end", "t;u;x1;\n" + lines([](int i) { return plain(i, ";") + ";"; }), {}},
+    {"commas_at_the_end", kUsualNames + lines([](int i) { return plain(i) + ",,"; }), {}},
+    {"comma_and_blank", "t, u, x1\n" + lines([](int i) { return plain(i, ", "); }), {}},
+    {"lines_before",
+     "Recorder 7\nserial: 12\n\nsampled at, 100 Hz\n" + kUsualNames + lines([](int i) { return plain(i); }),
+     {"table.lines_before"}},
+    {"comments_of_matlab",
+     "% rig 3\n%\nt,u,x1\n" + lines([](int i) { return plain(i) + (i == 9 ? "\n% later" : ""); }),
+     {}},
+    {"names_in_a_comment",
+     "# t u x1\n" + lines([](int i) { return plain(i, " "); }),
+     {"table.names_in_comment"}},
+    {"names_in_a_comment_of_matlab",
+     "% made by hand\n% t, u, x1\n" + lines([](int i) { return plain(i); }),
+     {"table.names_in_comment"}},
+    {"units_below_names",
+     "Time,Torque,Position\ns,mNm,deg\n" + lines([](int i) {
+       return fmt::format("{:.4f},{:.8f},{:.8f}", kLogStep * i, 1e3 * input_at(i),
+                          position_at(i) * 180.0 / std::numbers::pi);
+     }),
+     {"table.units_below_names", "unit.below_name"}},
+    {"units_in_brackets_below_names",
+     "Time;Torque;Angle\n[ms];[Nm];[°]\n" + lines([](int i) {
+       return fmt::format("{:.1f};{:.8f};{:.8f}", 1e3 * kLogStep * i, input_at(i),
+                          position_at(i) * 180.0 / std::numbers::pi);
+     }),
+     {"table.units_below_names"}},
+    {"names_with_units_between_blanks",
+     "Time [s]   Torque [Nm]   Position [rad]\n" + lines([](int i) { return plain(i, "  "); }),
+     {"table.blanks"}},
+    {"wizard",
+     "DYNAMIXEL Graph,3,,,,\nItemCount,2,,,MIN,MAX\n-1,1,XM430,Present Position,#ffff00,0\n"
+     "Time[ms],Present Current,Present Position,,,\n" +
+         lines([](int i) { return fmt::format("{},{:.8f},{:.8f},,,", 10 * i, input_at(i), position_at(i)); }),
+     {"table.lines_before", "columns.by_name"}},
+    {"iso",
+     "timestamp,torque,pos\n" +
+         lines([](int i) { return clock(i, "2024-11-27 10:{:02}:{:02}.{:03}") + values(i); }),
+     {"table.clock"}},
+    {"iso_with_zone",
+     "timestamp,torque,pos\n" +
+         lines([](int i) { return clock(i, "2024-11-27T10:{:02}:{:02}.{:03}+01:00") + values(i); }),
+     {"table.clock"}},
+    {"iso_over_midnight",
+     "timestamp,torque,pos\n" + lines([](int i) {
+       const int ms = (i * 10 + 86398000) % 86400000;
+       return fmt::format("2024-11-{}T{:02}:{:02}:{:02}.{:03}Z", i < 200 ? 27 : 28, ms / 3600000,
+                          ms / 60000 % 60, ms / 1000 % 60, ms % 1000) +
+              values(i);
+     }),
+     {"table.clock"}},
+    {"date_and_time",
+     "date,time,torque,pos\n" +
+         lines([](int i) { return clock(i, "2024-11-27,10:{:02}:{:02}.{:03}") + values(i); }),
+     {"table.clock"}},
+    {"german",
+     "Datum;Zeit;Drehmoment;Winkel\n" + lines([](int i) {
+       return clock(i, "27.11.2024;10:{:02}:{:02},{:03};") +
+              fmt::format("{:.8f};{:.8f}", input_at(i), position_at(i));
+     }),
+     {"table.clock"}},
+    {"newest_first",
+     kUsualNames + lines([](int i) { return plain(kLogRows - 1 - i); }),
+     {"table.newest_first"}},
+    {"newest_first_iso",
+     "timestamp,torque,pos\n" + lines([](int i) {
+       return clock(kLogRows - 1 - i, "2024-11-27 10:{:02}:{:02}.{:03}") + values(kLogRows - 1 - i);
+     }),
+     {"table.newest_first", "table.clock"}},
+    {"milliseconds",
+     "time,u,x1\n" + lines([](int i) { return std::to_string(10 * i) + values(i); }),
+     {"unit.by_steps"}},
+    {"microseconds",
+     "timestamp,u,x1\n" + lines([](int i) { return std::to_string(10000 * i) + values(i); }),
+     {"unit.by_steps"}},
+    {"nanoseconds_since_1970",
+     "timestamp,u,x1\n" +
+         lines([](int i) { return std::to_string(1764400000000000000 + 10000000LL * i) + values(i); }),
+     {"unit.by_steps", "table.clock"}},
+    {"ticks_of_100_ns",
+     "timestamp,u,x1\n" +
+         lines([](int i) { return std::to_string(638000000000000000 + 100000LL * i) + values(i); }),
+     {"unit.by_steps", "table.clock"}},
+    {"no_time", "u,x1\n" + lines([](int i) { return values(i).substr(1); }), {}, 100.0},
+    {"no_time_no_names", lines([](int i) { return values(i).substr(1); }), {"table.no_names"}, 100.0},
+    {"lists",
+     "type,timestamp,positions,torques\n" + lines([](int i) {
+       return fmt::format("STATE,{},\"[{:.8f}, 0.5]\",\"[{:.8f}, 0.1]\"", 10000 * i, position_at(i),
+                          input_at(i));
+     }),
+     {"columns.by_name"}},
+    {"lists_of_numpy",
+     "time;q;tau\n" + lines([](int i) {
+       return fmt::format("{:.4f};[{:.8f} 0.5 1];[{:.8f} 0.1 1]", kLogStep * i, position_at(i), input_at(i));
+     }),
+     {"columns.by_name"}},
+    {"quotes",
+     "\"t\",\"u\",\"x1\"\n" + lines([](int i) {
+       return fmt::format("\"{:.4f}\",\"{:.8f}\",\"{:.8f}\"", kLogStep * i, input_at(i), position_at(i));
+     }),
+     {}},
+    {"a_time_for_each_channel",
+     "Time,Torque,Time,Position\n" + lines([](int i) {
+       return fmt::format("{0:.4f},{1:.8f},{0:.4f},{2:.8f}", kLogStep * i, input_at(i), position_at(i));
+     }),
+     {}},
+    {"nan_here_and_there",
+     kUsualNames + lines([](int i) {
+       return i == 77 ? fmt::format("{:.4f},{:.8f},nan", kLogStep * i, input_at(i)) : plain(i);
+     }),
+     {"rows.bridged"},
+     0.0,
+     1e-3},
+    {"a_row_that_jumps",
+     kUsualNames + lines([](int i) {
+       return i == 77 ? fmt::format("{:.4f},{:.8f},-1.7", kLogStep * i, input_at(i)) : plain(i);
+     }),
+     {"rows.jumping"},
+     0.0,
+     1e-3},
+    {"two_devices",
+     "timestamp,target pos (1),pos (1),load (1),target pos (2),pos (2),load (2)\n" + lines([](int i) {
+       return fmt::format("{:.4f},7,{:.8f},{:.8f},3,2,1", kLogStep * i, position_at(i), input_at(i));
+     }),
+     {"columns.by_name"}},
+    {"other_columns",
+     "timestamp,voltage,position,velocity\n" + lines([](int i) {
+       return fmt::format("{:.4f},{:.8f},{:.8f},0.1", kLogStep * i, input_at(i), position_at(i));
+     }),
+     {"columns.by_name"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Variants, TableFormTest, ::testing::ValuesIn(kLogForms),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(TableForm, TopicsThatAlternateMeetAtTheRowsOfThePosition) {
+  const TemporaryFile file("__time,/joint_states/elbow/position,/motor/current\n" + lines([](int i) {
+                             return fmt::format("{:.6f},{:.8f},\n{:.6f},,{:.8f}", 1764400000.0 + kLogStep * i,
+                                                position_at(i), 1764400000.0 + kLogStep * (i + 0.5),
+                                                input_at(i));
+                           }));
+  std::vector<std::string> codes;
+  const Recording r = as_seen(file.path(), 0.0, {}, codes);
+  EXPECT_THAT(codes, Contains("table.topics"));
+  ASSERT_EQ(r.size(), static_cast<std::size_t>(kLogRows - 1)) << "before the first input there is none";
+  for (int i = 1; i < kLogRows - 1; ++i) {
+    EXPECT_NEAR(r.x1[static_cast<std::size_t>(i - 1)], position_at(i), 1e-7);
+    EXPECT_NEAR(r.u[static_cast<std::size_t>(i - 1)], 0.5 * (input_at(i - 1) + input_at(i)), 1e-5)
+        << "the mean of both";
+  }
+}
+
+TEST(TableForm, ASpeedInPlaceOfAPositionIsIntegrated) {
+  const TemporaryFile file("time_s,torque_Nm,speed_rpm\n" + lines([](int i) {
+                             return fmt::format("{:.4f},{:.8f},{:.8f}", kLogStep * i, input_at(i),
+                                                0.3 * 5.0 * std::cos(0.05 * i) * 30.0 / std::numbers::pi);
+                           }));
+  std::vector<std::string> codes;
+  const Recording r = as_seen(file.path(), 0.0, {}, codes);
+  EXPECT_THAT(codes, Contains("position.integrated"));
+  for (int i = 0; i < kLogRows; ++i) EXPECT_NEAR(r.x1[static_cast<std::size_t>(i)], position_at(i), 2e-4);
+}
+
+TEST(TableForm, AWrappedPositionIsCountedOn) {
+  const double turn = 2.0 * std::numbers::pi;
+  const TemporaryFile file(kUsualNames + lines([&](int i) {
+                             const double x = 12.0 * position_at(i);
+                             return fmt::format("{:.4f},{:.8f},{:.9f}", kLogStep * i, input_at(i),
+                                                x - turn * std::round(x / turn));
+                           }));
+  const Recording r = read_recording(file.path());
+  for (int i = 0; i < kLogRows; ++i)
+    EXPECT_NEAR(r.x1[static_cast<std::size_t>(i)], 12.0 * position_at(i), 1e-7);
+  ASSERT_EQ(r.assumed.size(), 1u);
+  EXPECT_EQ(r.assumed.front().code(), "position.unwrapped");
+  ReadOptions options;
+  options.unwrap = Unwrap::kNever;
+  EXPECT_LT(read_recording(file.path(), options).x1[30], turn / 2.0);
+}
+
+TEST(TableForm, AnInputIsMovedByRows) {
+  const TemporaryFile file(kUsualNames + lines([](int i) { return plain(i); }));
+  ReadOptions options;
+  for (const int rows : {-1, 2}) {
+    options.input_rows = rows;
+    const Recording r = read_recording(file.path(), options);
+    ASSERT_EQ(r.size(), static_cast<std::size_t>(kLogRows - std::abs(rows)));
+    const int first = std::max(rows, 0);
+    EXPECT_NEAR(r.u[10], input_at(first + 10 - rows), 1e-7);
+    EXPECT_NEAR(r.x1[10], position_at(first + 10), 1e-7);
+  }
+}
+
+TEST(TableForm, ColumnsAreNamedByTheirPlaces) {
+  const TemporaryFile file("a,b,c,d\n" + lines([](int i) {
+                             return fmt::format("{:.4f},7,{:.8f},{:.8f}", kLogStep * i, position_at(i),
+                                                input_at(i));
+                           }));
+  ReadOptions options;
+  options.columns.time = "1", options.columns.input = "4", options.columns.position = "3";
+  const Recording r = read_recording(file.path(), options);
+  EXPECT_NEAR(r.u[40], input_at(40), 1e-7);
+  options.columns.position = "5";
+  EXPECT_THAT(testing::refusal("a,b,c,d\n0,0,0,0\n", options), HasSubstr("there is no column '5'"));
+}
+
+TEST(TableForm, RegistersAreSignedAgain) {
+  RegisterForm sign{.sign_bit = 10}, offset{.offset = 2048.0}, two{.bits = 16};
+  EXPECT_EQ(sign.number(120.0), 120.0);
+  EXPECT_EQ(sign.number(1032.0), -8.0);
+  EXPECT_EQ(offset.number(2000.0), -48.0);
+  EXPECT_EQ(two.number(65535.0), -1.0);
+}
+
+struct Malformed {
+  const char* name;
+  std::string text;
+  const char* message;
+};
+
+class MalformedTableTest : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedTableTest, IsRefusedWithItsPlaceAndWhatToDo) {
+  const TemporaryFile file(GetParam().text);
+  std::vector<std::string> codes;
+  try {
+    as_seen(file.path(), 0.0, {}, codes);
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(GetParam().message));
+    EXPECT_THAT(error.what(), HasSubstr("expected"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Malformed, MalformedTableTest,
+    ::testing::Values(
+        Malformed{
+            "words_unknown", "date,time,FT_211,FV_211\n" + lines([](int i) {
+                               return clock(i, "2024-11-27,10:{:02}:{:02}.{:03}") + values(i);
+                             }),
+            "r.csv:1: no column is seen to be the position among 1 'date', 2 'time', 3 'FT_211', 4 'FV_211'"},
+        Malformed{"no_time_and_no_rate", "u,x1\n" + lines([](int i) { return values(i).substr(1); }),
+                  "--rate HZ"},
+        Malformed{"four_columns_without_names", lines([](int i) { return plain(i) + ",7"; }),
+                  "--columns TIME,INPUT,POSITION"},
+        Malformed{"a_clock_that_is_none", "time,u,x1\n" + lines([](int i) {
+                                            return clock(i, "10:{:02}:{:02}.{:03}") + values(i);
+                                          }) + "10:99:00,1,1\n",
+                  "time is '10:99:00', expected a finite number"},
+        Malformed{"mostly_blank", "t,u,x1\n" + lines([](int i) {
+                                    return i < 40 ? plain(i) : fmt::format("{:.4f},,nan", kLogStep * i);
+                                  }),
+                  "r.csv:42: u is empty, expected a finite number (40 rows have one in each column)"},
+        Malformed{"a_word_among_blanks",
+                  "t u x1\n" + lines([](int i) { return i == 9 ? "0.09 lost 0.1" : plain(i, " "); }),
+                  "r.csv:11: u is 'lost'"},
+        Malformed{"a_short_row_among_blanks",
+                  "t u x1\n" + lines([](int i) { return i == 9 ? "0.09 0.1" : plain(i, " "); }),
+                  "r.csv:11: 2 fields, expected 3"},
+        Malformed{"neither_up_nor_down",
+                  kUsualNames + lines([](int i) { return plain(i < 100 ? i : 200 - i); }),
+                  "r.csv:103: t goes from"},
+        Malformed{"a_list_that_ends", "time;q;tau\n" + lines([](int i) {
+                                        return fmt::format("{:.4f};[{:.8f} 0.5];{}", kLogStep * i,
+                                                           position_at(i), i == 5 ? "[]" : "[1 2]");
+                                      }),
+                  "is a list of 0"},
+        Malformed{"times_that_differ", "Time,Torque,Time,Position\n" + lines([](int i) {
+                                         return fmt::format("{:.4f},{:.8f},{:.4f},{:.8f}", kLogStep * i,
+                                                            input_at(i), kLogStep * i + 0.002,
+                                                            position_at(i));
+                                       }),
+                  "the column 'Time' is there twice, expected it once, or its place from 1 on (1 or 3)"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace gapscope
