@@ -50,8 +50,9 @@ std::vector<double> vector_of(ArrayFile& file, const std::string& path, const st
 bool has_vector(ArrayFile& file, const std::string& name);
 
 // By the kind of the file.  @throws ConfigError with the place and what to do unless it is whole
-std::unique_ptr<ArrayFile> open_mat(const std::string& path);   ///< MATLAB, versions 4, 5 and 7.3
-std::unique_ptr<ArrayFile> open_npz(const std::string& path);   ///< NumPy, stored or deflated
-std::unique_ptr<ArrayFile> open_hdf5(const std::string& path);  ///< HDF5; groups are named with a slash
+std::unique_ptr<ArrayFile> open_mat(const std::string& path);     ///< MATLAB, versions 4, 5 and 7.3
+std::unique_ptr<ArrayFile> open_npz(const std::string& path);     ///< NumPy, stored or deflated
+std::unique_ptr<ArrayFile> open_wpilog(const std::string& path);  ///< WPILib's log; "t" beside its entries
+std::unique_ptr<ArrayFile> open_hdf5(const std::string& path);    ///< HDF5; groups are named with a slash
 
 }  // namespace gapscope::internal::recording

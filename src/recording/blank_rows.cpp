@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kBridged = 2;  ///< blanks in a row that are drawn over
 constexpr double kOwnRows = 0.1;     ///< share of blanks from which on a column has rows of its own
 
-
-
 double share_of_blanks(const Numbers& column) {
   if (column.empty()) return 0.0;
   const auto blank = std::count_if(column.begin(), column.end(), [](double v) { return std::isnan(v); });
@@ -147,7 +145,7 @@ void settle_blanks(RecordedRows& table) {
               bridge_blanks(table.t, true, table.u) + bridge_blanks(table.t, true, table.target) +
               bridge_blanks(table.t, true, table.supply);
   }
-  const std::size_t dropped = drop_blank_rows(table);
+  const std::size_t dropped = table.without_time + drop_blank_rows(table);
   if (table.size() < kFewestSamples)
     table.fail(
         first.line,

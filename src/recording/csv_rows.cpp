@@ -57,7 +57,7 @@ class RowTaker {
   void add(EarlierRow earlier) {
     const RecordingColumns& columns = row_.columns();
     const double t = row_.time();
-    if (std::isnan(t)) return note(columns.time, 0);
+    if (std::isnan(t)) return table_.leave_out({row_.line(), columns.time, row_.text_of(columns.time)});
     if (!table_.admits(t, row_.line(), earlier, columns.time)) return;
     table_.t.push_back(t);
     table_.u.push_back(row_.input());

@@ -25,6 +25,8 @@ std::unique_ptr<ArrayFile> logged(const std::string& path, const RecordingColumn
 
 constexpr const char* kPandas =
     "in Python: pandas.read_parquet(FILE).to_csv('drive.csv', index=False), or read_feather, read_pickle";
+constexpr const char* kTorch =
+    "in Python: d = torch.load(FILE); numpy.savez('drive.npz', **{k: v.numpy() for k, v in d.items()})";
 constexpr const char* kSheet = "save the sheet as CSV";
 
 const std::vector<FileKind>& kinds() {
@@ -40,11 +42,15 @@ const std::vector<FileKind>& kinds() {
       {".json", "JSON", open_json},
       {".jsonl", "JSON", open_json},
       {".ndjson", "JSON", open_json},
+      {".wpilog", "WPILOG", opened<open_wpilog>},
       {".npy", "a single array of NumPy", nullptr,
        "in Python: numpy.savez('drive.npz', t=t, u=u, x1=x1), an array for each column"},
       {".bag", "a bag of ROS 1", nullptr,
        "rosbags-convert --src FILE --dst DIR, which writes a bag of ROS 2"},
       {".parquet", "Parquet", nullptr, kPandas},
+      {".hoot", "a log of CTRE", nullptr, "owlet -f wpilog FILE drive.wpilog"},
+      {".pt", "a file of PyTorch", nullptr, kTorch},
+      {".pth", "a file of PyTorch", nullptr, kTorch},
       {".feather", "Feather", nullptr, kPandas},
       {".pkl", "a pickle of Python", nullptr, kPandas},
       {".xlsx", "a workbook", nullptr, kSheet},
@@ -78,8 +84,9 @@ std::unique_ptr<ArrayFile> open_arrays(const std::string& path, const RecordingC
   if (kind.open) return kind.open(path, columns);
   throw ConfigError(
       path,
-      fmt::format("is {}, which is not read, expected a CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON of it ({})",
-                  kind.called, kind.convert));
+      fmt::format(
+          "is {}, which is not read, expected a CSV, .mat, .npz, HDF5, MCAP, .db3, WPILOG or JSON of it ({})",
+          kind.called, kind.convert));
 }
 
 }  // namespace gapscope::internal::recording

@@ -1,5 +1,6 @@
 // JSON as test benches of servos write it. One of: a list of objects, alone or as a member ("entries") of an
 // object whose other numbers hold for all of them; an object of lists of numbers; an object on every line.
+// Lists further down, as those of rollouts, are named by their path: "data[0].actions".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
+#include "recording/json_path.h"
 #include "recording/limits.h"
 #include "recording/log_file.h"
 #include "recording/recorded_rows.h"
@@ -24,6 +27,7 @@ struct JsonColumn {
   enum { kOfRows, kList, kForAll } kind = kOfRows;
   std::size_t rows = 0, columns = 0;  ///< of a list; of a table of numbers
   double value = kNaN;                ///< for all rows
+  JsonPath path = {};                 ///< of a list
 };
 
 class JsonFile : public ArrayFile {
@@ -38,15 +42,21 @@ class JsonFile : public ArrayFile {
 
   std::optional<StoredArray> find(const std::string& name) override {
     const auto found = columns_.find(name);
-    if (found == columns_.end()) return {};
-    const JsonColumn& c = found->second;
+    if (found == columns_.end() && !look_further_down(name)) return {};
+    const JsonColumn& c = columns_.at(name);
     if (c.kind != JsonColumn::kList) return StoredArray{name, "", {rows_}};
     return c.columns > 0 ? StoredArray{name, "", {c.rows, c.columns}, true} : StoredArray{name, "", {c.rows}};
   }
 
   std::vector<std::string> names() override {
     std::vector<std::string> all;
-    for (const auto& [name, column] : columns_) all.push_back(name);
+    const auto add = [&] {
+      JsonCursor json(text_);
+      add_lists(json, "", 0, all);
+    };
+    if (!by_line_) reading(add);  // fewer, and more likely meant, than the numbers of entries
+    for (const auto& [name, column] : columns_)
+      if (!contains(all, name)) all.push_back(name);
     return all;
   }
 
@@ -129,6 +139,7 @@ class JsonFile : public ArrayFile {
   void look_at_list(JsonCursor& json, const std::string& key, const std::string& position,
                     bool& has_position) {
     JsonColumn list{JsonColumn::kList};
+    list.path = {key};
     bool objects = false, here = false;
     json.array([&] {
       const char next = json.peek();
@@ -189,12 +200,11 @@ class JsonFile : public ArrayFile {
   }
 
   void read_list(const std::string& name, std::vector<double>& values) const {
-    JsonCursor json(text_);
     const std::size_t width = columns_.at(name).columns;
-    std::size_t in_row = 0;
-    const auto one = [&] { values.push_back(json.number()), ++in_row; };
-    json.object([&](const std::string& key) {
-      if (key != name) return json.skip();
+    JsonCursor json(text_);
+    at_path(json, columns_.at(name).path, [&] {
+      std::size_t in_row = 0;
+      const auto one = [&] { values.push_back(json.number()), ++in_row; };
       json.array([&] {
         in_row = 0;
         if (width == 0) return one();
@@ -205,6 +215,29 @@ class JsonFile : public ArrayFile {
                                      shown(name), width)};
       });
     });
+  }
+
+  /// A list of numbers, or of rows of them, at a path.  @returns whether there is one
+  bool look_further_down(const std::string& name) {
+    JsonColumn list{JsonColumn::kList};
+    list.path = json_path(name);
+    bool numbers = false;
+    reading([&] {
+      JsonCursor json(text_);
+      if (list.path.size() < 2 || by_line_) return;
+      at_path(json, list.path, [&] {
+        if (json.peek() != '[') return json.skip();
+        json.array([&] {
+          const char next = json.peek();
+          if (list.rows++ > 0) return json.skip();
+          numbers = next != '"' && next != '{';
+          if (next != '[') return json.skip();
+          json.array([&] { ++list.columns, json.skip(); });
+        });
+      });
+    });
+    if (numbers && list.rows > 1) columns_.insert_or_assign(name, list);
+    return numbers && list.rows > 1;
   }
 
   std::string path_, text_;

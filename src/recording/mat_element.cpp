@@ -61,6 +61,12 @@ std::vector<std::uint32_t> MatElement::small_words() {
   return words;
 }
 
+void MatElement::skip(std::uintmax_t count) {
+  std::array<char, 4096> piece{};
+  for (; count > 0; count -= std::min<std::uintmax_t>(count, piece.size()))
+    read(piece.data(), static_cast<std::size_t>(std::min<std::uintmax_t>(count, piece.size())));
+}
+
 void MatElement::finish() {
   char beyond = 0;
   if (deflated_ && read_some(&beyond, 1) != 0) throw DamagedVariable();
@@ -75,7 +81,7 @@ std::size_t MatElement::read_some(char* to, std::size_t count) {
   if (!deflated_) {
     const auto some = static_cast<std::size_t>(std::min<std::uintmax_t>(count, left_));
     if (!file_.read(to, static_cast<std::streamsize>(some))) throw DamagedVariable();
-    left_ -= some;
+    left_ -= some, taken_ += some;
     return some;
   }
   zip_.next_out = reinterpret_cast<Bytef*>(to);
@@ -86,6 +92,7 @@ std::size_t MatElement::read_some(char* to, std::size_t count) {
     ended_ = status == Z_STREAM_END;
     if (status != Z_OK && !ended_) throw DamagedVariable();
   }
+  taken_ += count - zip_.avail_out;
   return count - zip_.avail_out;
 }
 

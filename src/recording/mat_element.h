@@ -37,6 +37,9 @@ class MatElement {
   std::vector<char> small_part();
   std::vector<std::uint32_t> small_words();
 
+  std::uintmax_t taken() const { return taken_; }  ///< bytes that were read, inflated
+  void skip(std::uintmax_t count);
+
   /// All was read, and the checksum is right where there is one.
   void finish();
 
@@ -46,7 +49,8 @@ class MatElement {
   void refill();
 
   std::ifstream& file_;
-  std::uintmax_t left_;  ///< bytes in the file
+  std::uintmax_t left_;       ///< bytes in the file
+  std::uintmax_t taken_ = 0;  ///< bytes that were given out
   bool deflated_, foreign_, ended_ = false;
   z_stream zip_{};
   std::vector<char> packed_;

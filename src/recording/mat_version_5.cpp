@@ -12,6 +12,7 @@
 #include "gapscope/base/errors.h"
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
+#include "recording/mat_struct.h"
 #include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
@@ -20,43 +21,8 @@ namespace {
 using Bytes = std::uintmax_t;
 
 constexpr Bytes kHeader = 128, kTag = 8;
-constexpr std::uint32_t kMatrix = 14, kDeflated = 15;
+constexpr std::uint32_t kDeflated = 15;
 constexpr std::size_t kMostVariables = 100'000;
-
-enum Class : std::uint32_t {
-  kCell = 1,
-  kStruct,
-  kObject,
-  kChar,
-  kSparse,
-  kDouble,
-  kUint64 = 15,
-  kOpaque = 17
-};
-
-std::string flaw_of(std::uint32_t array_class, bool is_complex) {
-  if (array_class >= kDouble && array_class <= kUint64) return is_complex ? "is complex" : "";
-  return array_class == kCell     ? "is a cell array"
-         : array_class == kStruct ? "is a struct"
-         : array_class == kChar   ? "is a text"
-         : array_class == kSparse ? "is a sparse matrix"
-                                  : "is no array of numbers";
-}
-
-StoredArray read_head(MatElement& element, bool deflated) {
-  constexpr std::uint32_t kComplex = 0x0800;
-  if (deflated && element.tag().type != kMatrix) throw DamagedVariable();
-  const std::vector<std::uint32_t> flags = element.small_words();
-  if (flags.empty()) throw DamagedVariable();
-  const std::uint32_t array_class = flags[0] & 0xff;
-  StoredArray v;
-  v.flaw = flaw_of(array_class, (flags[0] & kComplex) != 0);
-  if (array_class != kOpaque)
-    for (const std::uint32_t size : element.small_words()) v.size.push_back(size);
-  const std::vector<char> name = element.small_part();
-  v.name.assign(name.begin(), name.end());
-  return v;
-}
 
 template <class T>
 std::vector<double> converted(std::vector<char>& raw, bool foreign) {
@@ -125,11 +91,14 @@ class Version5 : public MatContent {
     constexpr std::size_t kLongest = 8;
     const StoredVariable& s = *place_of(name);
     MatElement element(file_, s.place, s.length, s.deflated, foreign_);
-    read_head(element, s.deflated);
+    StoredArray head = read_head(element, s.deflated);
+    std::size_t passed = 0;
+    const auto is_it = [&](const StoredArray&) { return ++passed == s.part; };
+    if (s.part > 0 && !walk_struct(element, head, is_it)) throw DamagedVariable();
     const MatElement::Tag tag = element.tag();
     if (tag.length > kLongest * count) throw DamagedVariable();
     std::vector<double> out = numbers_of(tag.type, element.bytes(tag), foreign_);
-    element.finish();
+    if (s.part == 0) element.finish();
     if (out.size() != count) throw DamagedVariable();
     return out;
   } catch (const DamagedVariable&) {
@@ -142,6 +111,7 @@ class Version5 : public MatContent {
   struct StoredVariable {
     Bytes place = 0, length = 0;
     bool deflated = false;
+    std::size_t part = 0;  ///< of a struct, in the order of the file from 1 on; 0: the variable itself
     StoredArray variable;
   };
 
@@ -153,6 +123,19 @@ class Version5 : public MatContent {
     return {fmt::format("(damaged, byte {})", s.place), "is damaged", {}};
   }
 
+  /// What is within a struct; of a damaged one as much as can be read.
+  void add_parts(StoredVariable s) try {
+    MatElement element(file_, s.place, s.length, s.deflated, foreign_);
+    const StoredArray head = read_head(element, s.deflated);
+    walk_struct(element, head, [&](const StoredArray& part) {
+      if (variables_.size() == kMostVariables) throw DamagedVariable();
+      ++s.part, s.variable = part;
+      variables_.push_back(s);
+      return false;
+    });
+  } catch (const DamagedVariable&) {
+  }
+
   std::vector<StoredVariable>::const_iterator place_of(const std::string& name) const {
     return std::find_if(variables_.begin(), variables_.end(),
                         [&](const StoredVariable& s) { return s.variable.name == name; });
@@ -161,7 +144,7 @@ class Version5 : public MatContent {
   /// Takes the variable at this place.  @returns how many bytes it has there
   Bytes add(Bytes place, Bytes size) try {
     const MatElement::Tag tag = MatElement(file_, place, std::min(size - place, kTag), false, foreign_).tag();
-    StoredVariable s{place + kTag, tag.length, tag.type == kDeflated, {}};
+    StoredVariable s{place + kTag, tag.length, tag.type == kDeflated, 0, {}};
     if ((tag.type != kMatrix && !s.deflated) || tag.is_small || variables_.size() == kMostVariables)
       throw DamagedVariable();
     if (s.length > size - s.place)
@@ -169,6 +152,7 @@ class Version5 : public MatContent {
                                            size - s.place, s.place, s.length));
     s.variable = head_of(s);
     variables_.push_back(s);
+    if (s.variable.flaw == kIsStruct) add_parts(s);
     return kTag + s.length;
   } catch (const DamagedVariable&) {
     throw ConfigError(path_, fmt::format("is damaged at byte {}, expected a variable there", place));

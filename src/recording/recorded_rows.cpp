@@ -33,6 +33,10 @@ void RecordedRows::keep(std::size_t first, std::size_t count) {
   command_first += first;
 }
 
+void RecordedRows::leave_out(BlankField time) {
+  if (without_time++ == 0) blanks.push_back(std::move(time));
+}
+
 void RecordedRows::reverse() {
   for (auto* column : {&t, &u, &x1, &x2, &target, &supply}) std::reverse(column->begin(), column->end());
   std::reverse(line.begin(), line.end());

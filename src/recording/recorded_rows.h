@@ -39,12 +39,14 @@ struct RecordedRows {
   bool has_input = true;              ///< the file has u
   bool newest_first = false;          ///< time falls from row to row, until reverse()
   std::vector<BlankField> blanks;     ///< the first of each column; the numbers are NaN there
+  std::size_t without_time = 0;       ///< rows that were left out for that
   std::vector<Remark> assumed;        ///< how the file was read, and what was mended
 
   std::size_t size() const { return t.size(); }
   void keep(std::size_t first, std::size_t count);  ///< drops all other rows
 
-  void reverse();  ///< the last row becomes the first
+  void leave_out(BlankField time);  ///< a row that has no time
+  void reverse();                   ///< the last row becomes the first
   void shift_time(double by);
 
   /// Whether a row of this time goes on where the rows before it end; one that is skipped is noted.

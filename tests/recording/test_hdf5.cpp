@@ -46,7 +46,7 @@ TEST(Hdf5, RefusesWhatIsNoVectorOfRealNumbersWithWhatToDo) {
   EXPECT_THAT(tried("fields"), HasSubstr("(write a dataset for each field)"));
   EXPECT_THAT(tried("text"), HasSubstr("is a text"));
   EXPECT_THAT(tried("short"), HasSubstr("the dataset 'short' has 50 values, expected 60 as in 't'"));
-  EXPECT_THAT(tried("broken"), HasSubstr("sample 17: broken is nan, expected a finite number"));
+  EXPECT_EQ(tried("broken"), "") << "one number that is none is drawn over";
 }
 
 /// Where the numbers of a column stand that is stored in one piece.
@@ -78,7 +78,7 @@ TEST(Hdf5, RefusesAMalformedFileWithPlaceAndRemedy) {
       {"no root", zeros(56, 40), {"there is no dataset 't'"}},
       {"no first header", zeros(96, 40), {whole}},
       {"a late time", number(9.0), {"sample 5: t goes from 9 to 0.004 s, expected time that increases"}},
-      {"no time", number(std::nan("")), {"sample 4: t is nan, expected a finite number"}},
+      {"no time", number(std::nan("")), {"sample 5: time is not uniform"}},
       {"an endless time", number(HUGE_VAL), {"sample 4: t is inf, expected a finite number"}},
       {"another step", number(0.0035), {"sample 4: time is not uniform", "resample: {rate: ...}"}},
   };

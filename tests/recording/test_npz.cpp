@@ -61,7 +61,7 @@ TEST(Npz, RefusesWhatIsNoVectorOfRealNumbersWithWhatToDo) {
   EXPECT_THAT(tried("fields"), HasSubstr("(save each field: numpy.savez("));
   EXPECT_THAT(tried("wide"), HasSubstr("has numbers of another width"));
   EXPECT_THAT(tried("short"), HasSubstr("the array 'short' has 50 values, expected 60 as in 't'"));
-  EXPECT_THAT(tried("broken"), HasSubstr("sample 17: broken is nan, expected a finite number"));
+  EXPECT_EQ(tried("broken"), "") << "one number that is none is drawn over";
 }
 
 /// Where a member's own header begins, and its entry in the directory.

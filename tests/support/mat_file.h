@@ -38,6 +38,27 @@ class MatWriter {
     return put(Mat_VarCreateStruct(name.c_str(), 2, size, &field, 1));
   }
 
+  /// As Simulink's "structure with time": name.time, name.signals(1).values, name.signals(2).values, the last
+  /// one with two columns.
+  MatWriter& structure_with_time(const std::string& name, const std::vector<double>& time,
+                                 const std::vector<double>& first, const std::vector<double>& second) {
+    const auto numbers = [](const std::vector<double>& values, std::size_t columns) {
+      std::size_t size[2] = {values.size() / columns, columns};
+      return Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, const_cast<double*>(values.data()),
+                           0);
+    };
+    const char* const own[] = {"time", "signals"};
+    const char* const fields[] = {"values", "label"};
+    std::size_t one[2] = {1, 1}, two[2] = {1, 2};
+    matvar_t* const all = Mat_VarCreateStruct(name.c_str(), 2, one, const_cast<const char**>(own), 2);
+    matvar_t* const signals = Mat_VarCreateStruct(nullptr, 2, two, const_cast<const char**>(fields), 2);
+    Mat_VarSetStructFieldByName(signals, "values", 0, numbers(first, 1));
+    Mat_VarSetStructFieldByName(signals, "values", 1, numbers(second, 2));
+    Mat_VarSetStructFieldByName(all, "time", 0, numbers(time, 1));
+    Mat_VarSetStructFieldByName(all, "signals", 0, signals);
+    return put(all);
+  }
+
   MatWriter& cell(const std::string& name) {
     std::size_t size[2] = {1, 1};
     double number = 1.0;
