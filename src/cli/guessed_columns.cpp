@@ -77,6 +77,11 @@ RecordingArguments with_guesses(RecordingArguments a) {
   a.target = g.target;
   a.units.time = g.time_unit, a.units.input = g.input_unit, a.units.position = g.position_unit;
   a.units.speed = g.speed_unit;
+  if (g.input_form.is_one() && a.input_register.empty() && !a.registers.input.is_one()) {
+    a.registers.input = g.input_form;
+    g.told.emplace_back("register.sign_bit", "bit {} of {} is its sign",
+                        std::vector<Remark::Value>{static_cast<long>(g.input_form.sign_bit), shown(a.input)});
+  }
   const bool no_unit = a.units.position.empty() && unit_in_name(a.position, Quantity::kAngle).empty();
   if (g.whole_positions && a.bits > 0 && no_unit) {
     a.units.position = kCounts;

@@ -175,17 +175,16 @@ RecordingConfig RecordingArguments::configuration() const {
   require_three_columns(o.columns);
   c.units = units;
   for (const NamedUnit& u : left_to_names(c.units, o.columns, coordinates())) *u.declared = unit_by_name(u);
-  o.columns.scales =
-      declared_scales(c.units, c.registers, gear, encoder(), coordinates(), o.columns.position_is_speed,
-                      [&](const std::string& key, auto& expected) {
-                        const std::string& unit = key == "time"      ? units.time
-                                                  : key == "input"   ? units.input
-                                                  : key == "voltage" ? units.voltage
-                                                  : key == "speed"   ? units.speed
-                                                                     : units.position;
-                        throw ConfigError(fmt::format("gapscope: --{}-unit {} is not known, expected {}", key,
-                                                      shown(unit), expected));
-                      });
+  o.columns.scales = declared_scales(
+      c.units, c.registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
+        const std::string& unit = key == "time"      ? units.time
+                                  : key == "input"   ? units.input
+                                  : key == "voltage" ? units.voltage
+                                  : key == "speed"   ? units.speed
+                                                     : units.position;
+        throw ConfigError(
+            fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));
+      });
   if (!window.empty()) o.window = {window[0], window[1]};
   if (o.window && !(o.window->first < o.window->second))
     throw ConfigError("gapscope: --window goes backwards, expected FROM before TO [s]");

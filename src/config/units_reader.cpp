@@ -40,7 +40,7 @@ void GearRatios::fields(FieldVisitor& v) {
 
 ColumnScales declared_scales(
     const DeclaredUnits& units, const RegisterForms& registers, const GearRatios& gear,
-    const EncoderConfig& encoder, Coordinates coordinates, bool speed,
+    const EncoderConfig& encoder, Coordinates coordinates,
     const std::function<void(const char* key, const std::string& expected)>& refuse) {
   const auto scale = [&](const char* key, const std::string& declared, Quantity quantity) {
     if (declared.empty()) return UnitScale{};
@@ -65,7 +65,7 @@ ColumnScales declared_scales(
   scales.load_position = geared(travelled("load_position", units.load_position, load), gear.load_position);
   scales.voltage = scale("voltage", units.voltage, Quantity::kVoltage);
   scales.turn = turns ? 2.0 * std::numbers::pi / std::abs(gear.position) : 0.0;
-  if (speed)
+  if (!units.speed.empty())
     scales.position =
         geared(scale("speed", units.speed, turns ? Quantity::kTurning : Quantity::kSliding), gear.position);
   scales.input.form = registers.input;
@@ -127,14 +127,15 @@ void read_units(const Section& section, const EncoderConfig& encoder, Coordinate
   const auto units = section.find("units");
   if (units) read_fields(*units, recording.units);
   if (const auto registers = section.find("registers")) recording.registers = read_registers(*registers);
+  if (units && !recording.units.speed.empty() && !recording.reading.columns.position_is_speed)
+    units->fail("has a speed, expected columns: {speed: NAME} beside it");
   FieldKeys keys;
   recording.units.fields(keys);
   const auto refuse = [&](const char* key, const std::string& expected) {
     Section(*units, keys.keys).find(key)->fail_expecting(expected);
   };
   recording.reading.columns.scales =
-      declared_scales(recording.units, recording.registers, recording.gear, encoder, coordinates,
-                      recording.reading.columns.position_is_speed, refuse);
+      declared_scales(recording.units, recording.registers, recording.gear, encoder, coordinates, refuse);
 }
 
 std::string columns_text(const RecordingColumns& c) {

@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
+#include "gapscope/recording/register_look.h"
 #include "inspection/rules.h"
 #include "inspection/switched_off.h"
 #include "signals/noise.h"
@@ -80,21 +81,6 @@ double curvature_of_flanks(Samples u, const std::vector<bool>& plateau) {
     i = end + 1;
   }
   return largest / (high - low);
-}
-
-/// Bits of a register that holds a signed number and was read as an unsigned one: small numbers and numbers
-/// just below 2^bits, nothing in between; 0: u is none.
-int unsigned_register(Samples u) {
-  if (u.empty() || !whole_numbers(u)) return 0;
-  for (const int bits : {8, 16, 32}) {
-    const double all = std::ldexp(1.0, bits);
-    const auto negative = [&](double x) { return x >= 0.75 * all && x < all; };
-    const auto positive = [&](double x) { return x >= 0.0 && x < 0.25 * all; };
-    if (std::any_of(u.begin(), u.end(), negative) && std::any_of(u.begin(), u.end(), positive) &&
-        std::all_of(u.begin(), u.end(), [&](double x) { return negative(x) || positive(x); }))
-      return bits;
-  }
-  return 0;
 }
 
 /// Median slope of the five samples before each plateau, over the rms slope off the plateaus.
@@ -182,13 +168,24 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
   const bool noisy = facts.input_noise > kNoNoise * (high - low);
   const std::string found = fmt::format("{} to {} units of u, {}", figure(low, 4), figure(high, 4),
                                         noisy ? "noise " + figure(facts.input_noise, 2) : "no noise");
-  if (const int bits = unsigned_register(m.register_input))
+  const RegisterForm form = seen_register(m.register_input);
+  if (const int bits = form.bits)
     return {kInputRule, Severity::kSpoils,
             found + fmt::format(": its column is a signed register of {} bits, read without its sign (small "
                                 "numbers, and numbers just below {:.0f})",
                                 bits, std::ldexp(1.0, bits)),
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
+  if (const int bit = form.sign_bit)
+    return {kInputRule, Severity::kSpoils,
+            found + fmt::format(
+                        ": its column is a register whose bit {} is the sign (small numbers, and the same "
+                        "above {:.0f})",
+                        bit, std::ldexp(1.0, bit)),
+            fmt::format(
+                "recording: registers: {{input: {{sign_bit: {}}}}} (--input-register sign{}), so that {:.0f} "
+                "is -1",
+                bit, bit, std::ldexp(1.0, bit) + 1.0)};
   if (auto impossible = impossible_input(m, found)) return *std::move(impossible);
   if (const OffStretch off = switched_off(m.rows.u, m.rows.x1, m.signal.quantum); off.length() > 0)
     return {kInputRule, Severity::kNote,
@@ -198,6 +195,8 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
             "model says "
             "with the rest: cut it off (--window, recording: window), or take another recording",
             true};
+  if (auto magnitude = seeming_input(m, found)) return *std::move(magnitude);
+  if (auto loaded = constant_input(m, found)) return *std::move(loaded);
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
     return {kInputRule, Severity::kNote, found + ", whole numbers: counts or percent?",
             "torque_constant has to be N m (N) per one such unit"};

@@ -108,6 +108,7 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
                     "radians, declared as degrees?",
                     turn / q, of_radians),
         "declare it, recording: units: {position: rad}");
+  if (auto speed_in_its_place = seeming_position(m)) return *std::move(speed_in_its_place);
   const std::string speeds = "up to " + m.length(speed) + "/s";
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),

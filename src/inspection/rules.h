@@ -51,6 +51,15 @@ inline bool whole_numbers(std::span<const double> samples) {
 /// @param found  what is told of u in any case
 std::optional<Finding> impossible_input(const Material& m, const std::string& found);
 
+/// Where u is a magnitude. Nothing: it has its sign.
+std::optional<Finding> seeming_input(const Material& m, const std::string& found);
+/// Where the mean of u is far from zero.
+std::optional<Finding> constant_input(const Material& m, const std::string& found);
+/// Where each row's u acted before it.
+std::optional<Finding> seeming_rows(const Material& m, const std::string& found);
+/// Where x1 is a speed.
+std::optional<Finding> seeming_position(const Material& m);
+
 /// One question each; fills the facts that it finds.
 Finding check_time(const Material& m, RecordingFacts& facts);
 Finding check_position_unit(const Material& m, RecordingFacts& facts);

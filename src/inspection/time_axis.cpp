@@ -1,5 +1,6 @@
 // Whether the rows follow each other in time as every command expects.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,7 @@ std::string resample_advice(const RecordingFacts& facts) {
 double off_a_pc_tick(const recording::RecordedRows& rows) {
   constexpr double kTick = 1.0 / 64.0, kOff = 0.8e-3;  // [s]; stamps in whole milliseconds are off by so much
   constexpr double kNearlyAll = 0.98, kMostTicks = 20.0;
+  if (recording::is_uniform(rows) && rows.skipped.empty()) return 0.0;  // no coarse clock is
   std::size_t of_ticks = 0, other_than_one = rows.skipped.size();
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double step = rows.t[i] - rows.t[i - 1], ticks = std::round(step / kTick);
@@ -72,6 +74,24 @@ Finding skipped_rows(const Material& m) {
           "export each sample once and in order; the rest is judged without these rows"};
 }
 
+/// Windows of what was recorded between long pauses, as of several tests in one log; empty: there are none.
+std::string tests_between(const recording::RecordedRows& rows, double usual) {
+  constexpr double kLongPause = 20.0;  ///< usual steps
+  constexpr std::size_t kMost = 6;
+  std::vector<std::string> windows;
+  double from = rows.t.front();
+  for (std::size_t i = 1; i <= rows.size(); ++i) {
+    if (i < rows.size() && rows.t[i] - rows.t[i - 1] < kLongPause * usual) continue;
+    windows.push_back(fmt::format("{:.6g} {:.6g}", from, rows.t[i - 1]));
+    if (i < rows.size()) from = rows.t[i];
+  }
+  if (windows.size() < 2) return "";
+  const std::size_t told = std::min(windows.size(), kMost);
+  return fmt::format("; several tests in one log? Each by itself: --window {}{}",
+                     fmt::join(windows.begin(), windows.begin() + static_cast<std::ptrdiff_t>(told), ", or "),
+                     told < windows.size() ? ", ..." : "");
+}
+
 Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
   return {
       kTimeRule, m.resampled ? Severity::kNote : Severity::kSpoils,
@@ -81,7 +101,7 @@ Finding pauses(const Material& m, const Steps& s, const RecordingFacts& facts) {
                   : "u is held over each gap (recording: lost_rows: bridged, where the drive got new inputs "
                     "meanwhile): record "
                     "without losses, or cut a whole part with recording: window; " +
-                        resample_advice(facts)};
+                        resample_advice(facts) + tests_between(m.rows, s.median)};
 }
 
 Finding jitter(const Material& m, const Steps& s, const RecordingFacts& facts) {

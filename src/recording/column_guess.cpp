@@ -15,6 +15,7 @@
 #include "gapscope/base/text.h"
 #include "gapscope/recording/axes.h"
 #include "gapscope/recording/column_name.h"
+#include "gapscope/recording/register_look.h"
 #include "recording/column_words.h"
 #include "recording/file_kind.h"
 #include "recording/recorded_rows.h"
@@ -177,6 +178,8 @@ bool are_whole(const std::vector<double>& x) {
 void take_units(const Seen& seen, bool rated, ColumnGuess& guess) {
   guess.whole_positions =
       seen.is_text && are_whole(numbers_of(seen.form, place_in(seen.form, guess.position)));
+  const std::vector<double> input = numbers_of(seen.form, place_in(seen.form, guess.input));
+  guess.input_form.sign_bit = seen.is_text && guess.input.size() > 0 ? seen_register(input).sign_bit : 0;
   take_unit(seen, guess.time, {Quantity::kTime}, guess.time_unit, guess);
   take_unit(seen, guess.input, {Quantity::kTorque, Quantity::kForce}, guess.input_unit, guess);
   take_unit(seen, guess.position, {Quantity::kAngle, Quantity::kLength}, guess.position_unit, guess);

@@ -12,8 +12,6 @@
 namespace gapscope::internal::recording {
 namespace {
 
-
-
 constexpr double kNearTurn = 0.25;      ///< of a turn: a step that far from a whole one wraps
 constexpr double kWithinTurn = 1.02;    ///< turns that a position which wraps may span
 constexpr double kMoreThanAround = 10;  ///< a row that jumps, over the steps around it
@@ -48,9 +46,14 @@ double turns_of(double step, double turn, Unwrap how) {
   return std::abs(turns) == 1.0 && std::abs(step - turns * turn) < kNearTurn * turn ? turns : 0.0;
 }
 
+bool steps_beyond(const Numbers& x, double size) {
+  return std::adjacent_find(x.begin(), x.end(), [=](double a, double b) { return std::abs(b - a) > size; }) !=
+         x.end();
+}
+
 /// @returns how often the position began anew
 std::size_t unwrap(double turn, Unwrap how, Numbers& x) {
-  if (how == Unwrap::kNever || !(turn > 0.0) || x.size() < 2) return 0;
+  if (how == Unwrap::kNever || !(turn > 0.0) || !steps_beyond(x, 0.5 * turn)) return 0;
   if (how == Unwrap::kAuto && span_of(x) > kWithinTurn * turn) return 0;
   std::size_t wraps = 0;
   double whole = 0.0, before = x.front();
@@ -88,7 +91,9 @@ struct Jumps {
 Jumps take_out_jumps(const Numbers& t, Numbers& x) {
   Jumps jumps;
   if (x.size() < kFewestSamples) return jumps;
-  const double least = std::max({kLeastJump * span_of(x), 20.0 * seen_quantum(x), kMoreThanUsual * large_step(x)});
+  const double usual = kMoreThanUsual * large_step(x);
+  if (!steps_beyond(x, usual)) return jumps;
+  const double least = std::max({usual, kLeastJump * span_of(x), 20.0 * seen_quantum(x)});
   if (!(least > 0.0)) return jumps;
   Numbers mended = x;
   for (std::size_t i = 2; i + 2 < x.size(); ++i) {
@@ -128,6 +133,7 @@ void integrate(RecordedRows& table) {
     x += 0.5 * (speed + table.x1[i]) * (table.t[i] - table.t[i - 1]);
     speed = std::exchange(table.x1[i], x);
   }
+  table.integrated = true;
   table.assumed.emplace_back("position.integrated", "x1 is the integral of the speed");
 }
 

@@ -37,6 +37,7 @@ struct RecordedRows {
   std::vector<std::int64_t> skipped;  ///< lines of rows that were left out: not later than the row before
   bool open_end = false;              ///< the last line has no end: its last number may be cut off
   bool has_input = true;              ///< the file has u
+  bool integrated = false;            ///< x1 is the integral of a speed
   bool newest_first = false;          ///< time falls from row to row, until reverse()
   std::vector<BlankField> blanks;     ///< the first of each column; the numbers are NaN there
   std::size_t without_time = 0;       ///< rows that were left out for that

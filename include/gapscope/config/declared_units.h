@@ -51,8 +51,8 @@ struct GearRatios {
   void fields(FieldVisitor& v);
 };
 
-/// What units, registers and gears make of the columns.
-/// @param speed   the column of the position has its speed
+/// What units, registers and gears make of the columns. A unit of a speed is that of the column of the
+/// position, which then has the speed.
 /// @param refuse  is told the key ("position") whose unit is not known, and what was expected; does not
 /// return
 ColumnScales declared_scales(const DeclaredUnits& units, const RegisterForms& registers,

@@ -1,0 +1,180 @@
+#include "inspection/balance.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "gapscope/base/statistics.h"
+#include "signals/encoder.h"
+
+namespace gapscope::internal::inspection {
+namespace {
+
+constexpr std::size_t kFewestWindows = 20;
+constexpr std::size_t kMostWindows = 20000;  ///< of a long recording so many are enough
+constexpr int kMostRows = 2;                 ///< that u is moved by, to either side
+constexpr double kSwing = 0.3;               ///< [rad] from which on gravity turns visibly
+
+/// The bump s³(1−s)³ and its first two derivatives by s.
+double bump(double s) { return std::pow(s * (1.0 - s), 3); }
+double first_of_bump(double s) { return 3.0 * std::pow(s * (1.0 - s), 2) * (1.0 - 2.0 * s); }
+double second_of_bump(double s) {
+  const double a = s * (1.0 - s), b = 1.0 - 2.0 * s;
+  return 6.0 * a * (b * b - a);
+}
+
+double sign_of(double x, double least) { return x > least ? 1.0 : x < -least ? -1.0 : 0.0; }
+
+}  // namespace
+
+Balance::Balance(const MotorTrace& r, std::size_t window) : window_(window), rows_(r.size()) {
+  const std::size_t margin = kMostRows + 1;
+  const double length = r.dt * static_cast<double>(window);
+  if (r.size() < window + 2 * margin) return;
+  const std::size_t room = r.size() - window - 2 * margin;
+  const std::size_t stride = std::max({std::size_t{1}, window / 4, room / kMostWindows});
+  for (std::size_t from = margin; from < margin + room; from += stride) starts_.push_back(from);
+  std::vector<double> value(window), first(window), second(window);
+  for (std::size_t i = 0; i < window; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(window);
+    value[i] = bump(s), first[i] = first_of_bump(s) / length,
+    second[i] = second_of_bump(s) / (length * length);
+    between_.push_back(bump(s + 0.5 / static_cast<double>(window)));
+  }
+  const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
+  const bool turns = *high - *low > kSwing;
+  const double least = 1.5 * std::sqrt(12.0) * signals::encoder_floor(r);  // one count and a half
+  motion_.assign(turns ? 6 : 4, {});
+  of_speed_.assign(4, {});
+  for (const std::size_t from : starts_) {
+    double m[6] = {}, v[4] = {};
+    for (std::size_t i = 0; i < window; ++i) {
+      const double x = r.x1[from + i], offset = x - r.x1[from];
+      m[0] += second[i] * offset, m[1] -= first[i] * offset, m[3] += between_[i];
+      m[2] += value[i] * sign_of(r.x1[from + i + 1] - r.x1[from + i - 1], least);
+      if (turns) m[4] += between_[i] * std::sin(x), m[5] += between_[i] * std::cos(x);
+      v[0] -= first[i] * offset, v[1] += value[i] * x, v[2] += value[i] * sign_of(x, least),
+          v[3] += between_[i];
+    }
+    for (std::size_t j = 0; j < motion_.size(); ++j) motion_[j].push_back(m[j]);
+    for (std::size_t j = 0; j < of_speed_.size(); ++j) of_speed_[j].push_back(v[j]);
+  }
+}
+
+std::vector<double> Balance::bumped(std::span<const double> u) const {
+  std::vector<double> out;
+  for (const std::size_t from : starts_) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < window_; ++i) sum += between_[i] * u[from + i];
+    out.push_back(sum);
+  }
+  return out;
+}
+
+namespace {
+
+double share_left(const std::vector<std::vector<double>>& columns, const std::vector<double>& u) {
+  if (u.size() < kFewestWindows) return kNaN;
+  const auto rows = static_cast<Eigen::Index>(u.size());
+  Eigen::MatrixXd a(rows, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Eigen::Map<const Eigen::VectorXd> column(columns[j].data(), rows);
+    const double norm = column.norm();
+    a.col(static_cast<Eigen::Index>(j)) =
+        norm > 0.0 ? Eigen::VectorXd(column / norm) : Eigen::VectorXd(column);
+  }
+  const Eigen::Map<const Eigen::VectorXd> y(u.data(), rows);
+  const double all = (y.array() - y.mean()).square().sum();
+  return all > 0.0 ? (y - a * a.colPivHouseholderQr().solve(y)).squaredNorm() / all : kNaN;
+}
+
+std::vector<double> moved(std::span<const double> u, int rows) {
+  std::vector<double> out(u.begin(), u.end());
+  const auto last = static_cast<long>(u.size()) - 1;
+  for (long i = 0; i <= last; ++i)
+    out[static_cast<std::size_t>(i)] = u[static_cast<std::size_t>(std::clamp(i - rows, 0L, last))];
+  return out;
+}
+
+/// u with its sign turned after each time that it falls near 0 and rises again; nothing for fewer than three.
+std::vector<double> unfolded(std::span<const double> u) {
+  constexpr double kHigh = 0.2, kLow = 0.08;  ///< of the peak
+  constexpr int kFewest = 3;
+  const double peak = std::max(*std::max_element(u.begin(), u.end()), -*std::min_element(u.begin(), u.end()));
+  std::vector<double> out(u.begin(), u.end());
+  std::size_t turn = 0;
+  double sign = 1.0;
+  int turns = 0;
+  bool low = false, begun = false;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double size = std::abs(u[i]);
+    if (size < kLow * peak && (!low || size < std::abs(u[turn]))) turn = i, low = low || begun;
+    if (size > kHigh * peak) {
+      if (low) {
+        sign = -sign, ++turns;
+        for (std::size_t j = turn; j < i; ++j) out[j] = sign * u[j];
+      }
+      low = false, begun = true;
+    }
+    out[i] = sign * u[i];
+  }
+  return turns < kFewest ? std::vector<double>() : out;
+}
+
+}  // namespace
+
+double Balance::left(std::span<const double> u) const { return share_left(motion_, bumped(u)); }
+
+double Balance::left_of_speed(std::span<const double> u) const { return share_left(of_speed_, bumped(u)); }
+
+std::vector<std::size_t> balance_windows(const MotorTrace& r, double half_period) {
+  constexpr double kOfHalfPeriod = 0.5;
+  std::vector<std::size_t> windows = {8};
+  const double longest = half_period > 0.0 ? kOfHalfPeriod * half_period / r.dt : 8.0;
+  for (const std::size_t window : {12u, 16u, 24u, 32u, 48u, 64u, 96u})
+    if (static_cast<double>(window) <= longest) windows.push_back(window);
+  return windows;
+}
+
+InputRows best_input_rows(const MotorTrace& r, double half_period) {
+  constexpr double kLeftAnyway = 1e-7;  ///< of rounding
+  constexpr double kTells = 0.5;        ///< most over least that is left: a window that tells the rows apart
+  InputRows told;
+  double tells = kTells;
+  bool alike = true;  // all windows that tell move u to one side
+  for (const std::size_t window : balance_windows(r, half_period)) {
+    const Balance balance(r, window);
+    double least = kInfinity, most = 0.0, as_it_is = kNaN;
+    int best = 0;
+    for (int rows = -kMostRows; rows <= kMostRows; ++rows) {
+      const double left = balance.left(moved(r.u, rows));
+      if (rows == 0) as_it_is = left;
+      if (left < least) least = left, best = rows;
+      most = std::max(most, left);
+    }
+    const double contrast = (most - least) / (least + kLeftAnyway);
+    if (contrast > kTells) alike = alike && best < 0;
+    if (contrast > tells) tells = contrast, told = {best, (as_it_is + kLeftAnyway) / (least + kLeftAnyway)};
+  }
+  return alike ? told : InputRows{};
+}
+
+double gain_of_signs(const MotorTrace& r, double half_period) {
+  const double least = 1.5 * std::sqrt(12.0) * signals::encoder_floor(r);
+  std::vector<double> with_speed(r.u.begin(), r.u.end());
+  for (std::size_t i = 1; i + 1 < r.size(); ++i)
+    with_speed[i] *= r.x1[i + 1] - r.x1[i - 1] < -least ? -1.0 : 1.0;
+  const std::vector<double> turned = unfolded(r.u);
+  double most = 1.0;
+  for (const std::size_t window : balance_windows(r, half_period)) {
+    const Balance balance(r, window);
+    const double as_it_is = balance.left(r.u);
+    for (const std::vector<double>* const u :
+         std::initializer_list<const std::vector<double>*>{&with_speed, &turned})
+      if (!u->empty()) most = std::max(most, as_it_is / balance.left(*u));
+  }
+  return most;
+}
+
+}  // namespace gapscope::internal::inspection

@@ -1,0 +1,109 @@
+// Inputs and positions that look like what they are called, and are something else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "inspection/inspected.h"
+
+namespace gapscope {
+namespace {
+
+using test::changed;
+using test::finding;
+using test::inspected;
+using testing::closed_loop;
+using ::testing::HasSubstr;
+using testing::rig;
+using testing::Rows;
+
+/// Some drives with nothing wrong: open and closed loop, with a gap and without, fine and coarse.
+std::vector<Rows> faultless() {
+  TestDrive stiff, rubbing;
+  stiff.gap = 0.0, rubbing.m2 = 0.0, rubbing.Fc1 = 0.02;
+  return {rig(),
+          rig(test::two_tones),
+          rig(test::two_tones, stiff, 14),
+          rig(test::two_tones, rubbing, 16),
+          rig(test::trapezoid, stiff),
+          closed_loop()};
+}
+
+/// What a row holds acted before it.
+void late(Rows& r) {
+  r.u.insert(r.u.begin(), r.u.front());
+  r.u.pop_back();
+}
+
+TEST(SeemingInput, NothingIsSaidOfWhatIsAsItIsCalled) {
+  for (const Rows& rows : faultless()) {
+    const Inspection i = inspected(rows);
+    EXPECT_NE(finding(i, "input").severity, Severity::kSpoils) << i.report();
+    EXPECT_NE(finding(i, "scale of u").severity, Severity::kSpoils) << i.report();
+    EXPECT_NE(finding(i, "unit of x1").severity, Severity::kSpoils) << i.report();
+  }
+}
+
+TEST(SeemingInput, AMagnitudeIsOne) {
+  for (const Rows& rows : faultless()) {
+    const Inspection i = inspected(changed(rows, [](Rows& r) {
+      for (double& u : r.u) u = std::abs(u);
+    }));
+    EXPECT_EQ(finding(i, "input").severity, Severity::kSpoils) << i.report();
+    EXPECT_THAT(finding(i, "input").found, HasSubstr("a magnitude"));
+  }
+}
+
+TEST(SeemingInput, APositiveOneWithItsSignIsNone) {
+  const Inspection i = inspected(rig([](double t) { return 0.3 * (1.0 - std::cos(6.0 * t)); }));
+  EXPECT_NE(finding(i, "input").severity, Severity::kSpoils) << i.report();
+}
+
+TEST(SeemingInput, ARowThatHasWhatActedBeforeIsTold) {
+  for (const Rows& rows : {rig(test::two_tones,
+                               [] {
+                                 TestDrive stiff;
+                                 stiff.gap = 0.0;
+                                 return stiff;
+                               }()),
+                           closed_loop()}) {
+    const Rows moved = changed(rows, late);
+    const Inspection i = inspected(moved);
+    EXPECT_EQ(finding(i, "scale of u").severity, Severity::kSpoils) << i.report();
+    EXPECT_THAT(finding(i, "scale of u").advice, HasSubstr("--input-rows -1"));
+    ReadOptions options;
+    options.input_rows = -1;
+    EXPECT_NE(finding(inspected(moved, options), "scale of u").severity, Severity::kSpoils);
+  }
+}
+
+TEST(SeemingInput, ASpeedInPlaceOfAPositionIsTold) {
+  TestDrive drive;
+  drive.m2 = 0.0, drive.Fc1 = 0.03;
+  const auto input = [](double t) { return 0.5 * std::sin(6.0 * t) + 0.3 * std::sin(21.3 * t); };
+  const Inspection i = inspected(changed(rig(input, drive, 20), [](Rows& r) {
+    for (std::size_t j = r.x1.size() - 1; j > 0; --j) r.x1[j] = 1e3 * (r.x1[j] - r.x1[j - 1]);
+    r.x1[0] = r.x1[1];
+  }));
+  EXPECT_EQ(finding(i, "unit of x1").severity, Severity::kSpoils) << i.report();
+  EXPECT_THAT(finding(i, "unit of x1").advice, HasSubstr("--speed"));
+}
+
+TEST(SeemingInput, AConstantLoadIsNoted) {
+  const Inspection i = inspected(changed([](Rows& r) {
+    for (double& u : r.u) u += 1.0;
+  }));
+  EXPECT_EQ(finding(i, "input").severity, Severity::kNote) << i.report();
+  EXPECT_THAT(finding(i, "input").advice, HasSubstr("constant_load_torque"));
+}
+
+TEST(SeemingInput, ARegisterWhoseBitIsTheSignIsSeen) {
+  const Inspection i = inspected(changed([](Rows& r) {
+    for (double& u : r.u) u = u < 0.0 ? 1024.0 + std::round(-300.0 * u) : std::round(300.0 * u);
+  }));
+  EXPECT_EQ(finding(i, "input").severity, Severity::kSpoils) << i.report();
+  EXPECT_THAT(finding(i, "input").advice, HasSubstr("--input-register sign10"));
+}
+
+}  // namespace
+}  // namespace gapscope
