@@ -46,18 +46,17 @@ Json units_schema() {
 }
 
 Json registers_schema() {
-  MapSchema sign, offset, registers;
-  sign.add("sign_bit", {{"type", "integer"}, {"minimum", 1}, {"maximum", 51}});
-  sign.required = {"sign_bit"};
-  offset.add("offset", number_schema({-1e15, 1e15}, "the register where the number is 0"));
-  offset.required = {"offset"};
+  MapSchema form, registers;
+  form.add("sign_bit", described({{"type", "integer"}, {"minimum", 1}, {"maximum", 51}},
+                                 "bit above the size, counted from 0"));
+  form.add("offset", number_schema({-1e15, 1e15}, "the register where the number is 0"));
+  Json one = form.schema("one of the two");
+  one["minProperties"] = one["maxProperties"] = 1;
   for (const char* key : {"input", "position", "load_position"})
-    registers.add(key, any_of({{{"type", "integer"}, {"minimum", 0}, {"maximum", 52}},
-                               sign.schema("bit above the size, counted from 0"),
-                               offset.schema("")}));
+    registers.add(key, any_of({{{"type", "integer"}, {"minimum", 0}, {"maximum", 52}}, one}));
   return registers.schema(
-      "how signed numbers were held that were read without their sign: bits of two's complement, a sign bit, "
-      "an "
+      "how signed numbers were held that were read without their sign: bits of two's complement, a sign bit "
+      "or an "
       "offset");
 }
 

@@ -6,15 +6,14 @@
 #include <initializer_list>
 
 #include "gapscope/base/statistics.h"
-#include "signals/encoder.h"
 
 namespace gapscope::internal::inspection {
 namespace {
 
 constexpr std::size_t kFewestWindows = 20;
-constexpr std::size_t kMostWindows = 20000;  ///< of a long recording so many are enough
-constexpr int kMostRows = 2;                 ///< that u is moved by, to either side
-constexpr double kSwing = 0.3;               ///< [rad] from which on gravity turns visibly
+constexpr std::size_t kMostWindows = 1000;  ///< of a long recording so many are enough
+constexpr double kStands = 1.5;             ///< counts from row to row, below which x1 stands
+constexpr double kSwing = 0.3;              ///< [rad] from which on gravity turns visibly
 
 /// The bump s³(1−s)³ and its first two derivatives by s.
 double bump(double s) { return std::pow(s * (1.0 - s), 3); }
@@ -28,8 +27,8 @@ double sign_of(double x, double least) { return x > least ? 1.0 : x < -least ? -
 
 }  // namespace
 
-Balance::Balance(const MotorTrace& r, std::size_t window) : window_(window), rows_(r.size()) {
-  const std::size_t margin = kMostRows + 1;
+Balance::Balance(const MotorTrace& r, std::size_t window) : window_(window) {
+  const std::size_t margin = kMostMovedRows + 1;
   const double length = r.dt * static_cast<double>(window);
   if (r.size() < window + 2 * margin) return;
   const std::size_t room = r.size() - window - 2 * margin;
@@ -44,7 +43,7 @@ Balance::Balance(const MotorTrace& r, std::size_t window) : window_(window), row
   }
   const auto [low, high] = std::minmax_element(r.x1.begin(), r.x1.end());
   const bool turns = *high - *low > kSwing;
-  const double least = 1.5 * std::sqrt(12.0) * signals::encoder_floor(r);  // one count and a half
+  const double least = kStands * r.quantum;
   motion_.assign(turns ? 6 : 4, {});
   of_speed_.assign(4, {});
   for (const std::size_t from : starts_) {
@@ -62,11 +61,12 @@ Balance::Balance(const MotorTrace& r, std::size_t window) : window_(window), row
   }
 }
 
-std::vector<double> Balance::bumped(std::span<const double> u) const {
+std::vector<double> Balance::bumped(std::span<const double> u, int rows) const {
   std::vector<double> out;
   for (const std::size_t from : starts_) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < window_; ++i) sum += between_[i] * u[from + i];
+    for (std::size_t i = 0; i < window_; ++i)
+      sum += between_[i] * u[from + i - static_cast<std::size_t>(rows)];
     out.push_back(sum);
   }
   return out;
@@ -87,14 +87,6 @@ double share_left(const std::vector<std::vector<double>>& columns, const std::ve
   const Eigen::Map<const Eigen::VectorXd> y(u.data(), rows);
   const double all = (y.array() - y.mean()).square().sum();
   return all > 0.0 ? (y - a * a.colPivHouseholderQr().solve(y)).squaredNorm() / all : kNaN;
-}
-
-std::vector<double> moved(std::span<const double> u, int rows) {
-  std::vector<double> out(u.begin(), u.end());
-  const auto last = static_cast<long>(u.size()) - 1;
-  for (long i = 0; i <= last; ++i)
-    out[static_cast<std::size_t>(i)] = u[static_cast<std::size_t>(std::clamp(i - rows, 0L, last))];
-  return out;
 }
 
 /// u with its sign turned after each time that it falls near 0 and rises again; nothing for fewer than three.
@@ -124,9 +116,11 @@ std::vector<double> unfolded(std::span<const double> u) {
 
 }  // namespace
 
-double Balance::left(std::span<const double> u) const { return share_left(motion_, bumped(u)); }
+double Balance::left(std::span<const double> u, int rows) const {
+  return share_left(motion_, bumped(u, rows));
+}
 
-double Balance::left_of_speed(std::span<const double> u) const { return share_left(of_speed_, bumped(u)); }
+double Balance::left_of_speed(std::span<const double> u) const { return share_left(of_speed_, bumped(u, 0)); }
 
 std::vector<std::size_t> balance_windows(const MotorTrace& r, double half_period) {
   constexpr double kOfHalfPeriod = 0.5;
@@ -147,8 +141,8 @@ InputRows best_input_rows(const MotorTrace& r, double half_period) {
     const Balance balance(r, window);
     double least = kInfinity, most = 0.0, as_it_is = kNaN;
     int best = 0;
-    for (int rows = -kMostRows; rows <= kMostRows; ++rows) {
-      const double left = balance.left(moved(r.u, rows));
+    for (int rows = -kMostMovedRows; rows <= kMostMovedRows; ++rows) {
+      const double left = balance.left(r.u, rows);
       if (rows == 0) as_it_is = left;
       if (left < least) least = left, best = rows;
       most = std::max(most, left);
@@ -161,7 +155,7 @@ InputRows best_input_rows(const MotorTrace& r, double half_period) {
 }
 
 double gain_of_signs(const MotorTrace& r, double half_period) {
-  const double least = 1.5 * std::sqrt(12.0) * signals::encoder_floor(r);
+  const double least = kStands * r.quantum;
   std::vector<double> with_speed(r.u.begin(), r.u.end());
   for (std::size_t i = 1; i + 1 < r.size(); ++i)
     with_speed[i] *= r.x1[i + 1] - r.x1[i - 1] < -least ? -1.0 : 1.0;

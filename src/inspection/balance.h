@@ -7,28 +7,30 @@
 
 namespace gapscope::internal::inspection {
 
+constexpr int kMostMovedRows = 2;
+
 /// What the torques of one body leave of u: over many short windows, each weighed by a bump φ that is 0 at
 /// its ends,
 ///   ∫φu dt = M ∫φ''x1 dt − D ∫φ'x1 dt + F ∫φ sign(w1) dt + G ∫φ sin x1 dt + H ∫φ cos x1 dt + C ∫φ dt
 /// by least squares, so that nothing is differentiated. Which window is taken says what can be told apart.
 class Balance {
  public:
-  /// @param recording  evenly sampled
+  /// @param recording  evenly sampled, with its quantum
   /// @param window     rows of each window, 8 or more
   Balance(const MotorTrace& recording, std::size_t window);
 
   /// The share of u that is left, squares over those about its mean; NaN where there are too few windows.
-  /// @param u  in place of the recorded one, as many samples
-  double left(std::span<const double> u) const;
+  /// @param u     in place of the recorded one, as many samples
+  /// @param rows  that it is moved by, at most kMostMovedRows to either side
+  double left(std::span<const double> u, int rows = 0) const;
 
   /// The same where x1 is taken for a speed: M ẋ1 + D x1 + F sign(x1) + C.
   double left_of_speed(std::span<const double> u) const;
 
  private:
-  struct Fit;
-  std::vector<double> bumped(std::span<const double> u) const;
+  std::vector<double> bumped(std::span<const double> u, int rows) const;
 
-  std::size_t window_, rows_ = 0;
+  std::size_t window_;
   std::vector<std::size_t> starts_;
   std::vector<double> between_;                         ///< φ in the middle of each step
   std::vector<std::vector<double>> motion_, of_speed_;  ///< columns of the two laws

@@ -1,5 +1,6 @@
 // What the samples of x1 say about the encoder and the unit they are given in.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -85,6 +86,19 @@ std::vector<std::size_t> jumps(const Material& m) {
   return found;
 }
 
+/// Wraps and rows that jump and come back, which were mended as the file was read.
+Finding mended_jumps(const Material& m) {
+  std::vector<std::string> mended;
+  for (const Remark& r : m.rows.assumed)
+    if (r.code() == "position.unwrapped" || r.code() == "rows.jumping")
+      mended.push_back(r.text(m.coordinates));
+  if (mended.empty()) return {"jumps", Severity::kFine, "x1 has none", ""};
+  return {"jumps", Severity::kNote, fmt::format("{}", fmt::join(mended, "; ")),
+          "where it did turn so far, recording: unwrap: false; a reading that fails so often is worth a look "
+          "at the "
+          "encoder's line"};
+}
+
 }  // namespace
 
 Finding check_position_unit(const Material& m, RecordingFacts&) {
@@ -148,7 +162,7 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
 
 Finding check_jumps(const Material& m, RecordingFacts&) {
   const std::vector<std::size_t> found = jumps(m);
-  if (found.empty()) return {"jumps", Severity::kFine, "x1 has none", ""};
+  if (found.empty()) return mended_jumps(m);
   const std::size_t i = found.front();
   const double size = std::abs(m.rows.x1[i] - m.rows.x1[i - 1]), turns = size / (2.0 * std::numbers::pi);
   const bool wraps =

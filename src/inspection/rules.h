@@ -56,7 +56,8 @@ std::optional<Finding> seeming_input(const Material& m, const std::string& found
 /// Where the mean of u is far from zero.
 std::optional<Finding> constant_input(const Material& m, const std::string& found);
 /// Where each row's u acted before it.
-std::optional<Finding> seeming_rows(const Material& m, const std::string& found);
+/// @param uniform  the rows are: on a grid that they were brought to none is the one that acted
+std::optional<Finding> seeming_rows(const Material& m, bool uniform, const std::string& found);
 /// Where x1 is a speed.
 std::optional<Finding> seeming_position(const Material& m);
 

@@ -19,6 +19,8 @@ constexpr double kGainOfRows =
     1.4;  ///< what is left as it stands, over what is left when it is moved: worth a note
 constexpr double kSurelyMoved = 2.0;  ///< … and that it spoils
 constexpr double kLeftOfSpeed = 0.5;  ///< of what the law of a position leaves
+constexpr double kExplained = 0.3;    ///< … and of u
+constexpr double kWindsUp = 2.0;      ///< [rad] further than that no locked output lets x1 go
 constexpr double kGainOfSigns = 2.0;  ///< as kGainOfRows, with signs
 constexpr double kToAndFro = 0.3;     ///< the shorter way of x1 to one side, over that to the other
 constexpr double kFarFromZero = 0.5;  ///< mean of u, over what u swings about it
@@ -64,8 +66,9 @@ std::optional<Finding> constant_input(const Material& m, const std::string& foun
       kInputRule, Severity::kNote,
       found +
           fmt::format(
-              ", {} in the mean, which is {:.0f} % of its swing: a constant load, as gravity or a preload",
-              figure(level), 100.0 * std::abs(level) / swing),
+              ", {} in the mean, which is {:.0f} % of its swing: a constant load, as gravity or a preload{}",
+              figure(level), 100.0 * std::abs(level) / swing,
+              has_one_sign(u) ? "; it never changes its sign" : ""),
       "give the model constant_load_torque, or load_unbalance where an arm turns, estimated; a contact that "
       "such "
       "a load "
@@ -73,11 +76,12 @@ std::optional<Finding> constant_input(const Material& m, const std::string& foun
       true};
 }
 
-std::optional<Finding> seeming_rows(const Material& m, const std::string& found) {
+std::optional<Finding> seeming_rows(const Material& m, bool uniform, const std::string& found) {
   const MotorTrace trace = m.recording.motor_trace();
-  if (m.commanded || !m.moves() || signals::torque_cycles(trace).following > kFollowsLoop) return {};
+  if (!uniform || m.commanded || !m.moves()) return {};
   const InputRows rows = best_input_rows(trace, m.signal.half_period);
   if (rows.best >= 0 || !(rows.gain > kGainOfRows)) return {};
+  if (signals::torque_cycles(trace).following > kFollowsLoop) return {};
   return Finding{
       "scale of u", Severity::kSpoils,
       found + fmt::format("; moved by {} row{} a body leaves {} times less of u: each row has what acted "
@@ -88,15 +92,18 @@ std::optional<Finding> seeming_rows(const Material& m, const std::string& found)
 
 std::optional<Finding> seeming_position(const Material& m) {
   const MotorTrace trace = m.recording.motor_trace();
-  if (m.commanded || !m.moves() || m.rows.integrated || m.signal.half_periods < signals::kFewestHalfPeriods ||
-      signals::torque_cycles(trace).following > kFollowsLoop)
+  if (m.commanded || !m.moves() || m.rows.integrated || m.signal.half_periods < signals::kFewestHalfPeriods)
     return {};
+  const auto [low, high] = std::minmax_element(m.recording.u.begin(), m.recording.u.end());
+  if (*low == *high) return {};
   double best = kInfinity;
   for (const std::size_t window : balance_windows(trace, m.signal.half_period)) {
     const Balance balance(trace, window);
-    best = std::min(best, balance.left_of_speed(m.recording.u) / balance.left(m.recording.u));
+    const double left = balance.left_of_speed(m.recording.u);
+    if (left < kExplained) best = std::min(best, left / balance.left(m.recording.u));
   }
   if (!(best < kLeftOfSpeed)) return {};
+  if (m.signal.travel < kWindsUp && signals::torque_cycles(trace).following > kFollowsLoop) return {};
   return Finding{
       kPositionUnitRule, Severity::kSpoils,
       fmt::format(

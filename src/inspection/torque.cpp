@@ -168,7 +168,7 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
   const std::string found =
       fmt::format("as one body: inertia {}, damping {}, friction {}, each times torque_constant in {}",
                   number(rough.inertia), number(rough.damping), number(rough.friction), units);
-  if (auto late = seeming_rows(m, found)) return *std::move(late);
+  if (auto late = seeming_rows(m, facts.uniform && !m.resampled, found)) return *std::move(late);
   if (rough.inertia > 0.0 && rough.inertia_over_left > kSeen)
     return {"scale of u", Severity::kFine, found + "; compare with the sheets of motor and load", ""};
   const std::string drowned =

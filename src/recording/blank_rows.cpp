@@ -154,11 +154,11 @@ void settle_blanks(RecordedRows& table) {
                     table.size() > 0 ? fmt::format(" ({} rows have one in each column)", table.size()) : ""));
   if (bridged > 0)
     table.assumed.emplace_back(
-        "rows.bridged", "{} blank fields drawn over, the first in {}",
+        "rows.bridged", "blank fields drawn over: {}, the first in {}",
         std::vector<Remark::Value>{static_cast<long>(bridged), table.place(first.line)});
   if (dropped > 0)
     table.assumed.emplace_back(
-        "rows.left_out", "{} rows without numbers left out, the first in {}",
+        "rows.left_out", "rows without numbers left out: {}, the first in {}",
         std::vector<Remark::Value>{static_cast<long>(dropped), table.place(first.line)});
 }
 

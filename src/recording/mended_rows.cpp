@@ -121,7 +121,7 @@ void mend_position(const ReadOptions& options, RecordedRows& table) {
   const Jumps jumps = take_out_jumps(table.t, table.x1);
   if (jumps.rows > 0)
     table.assumed.emplace_back(
-        "rows.jumping", "{} rows in which x1 jumps away and back drawn over, the first in {}",
+        "rows.jumping", "rows in which x1 jumps away and back drawn over: {}, the first in {}",
         std::vector<Remark::Value>{static_cast<long>(jumps.rows), table.place(table.line[jumps.first])});
 }
 

@@ -29,7 +29,8 @@ const std::vector<Unit>& units(Quantity quantity) {
   static const std::vector<Unit> time = {{"s", kOne, "s"},
                                          {"ms", kMilli, "s"},
                                          {"us", kMicro, "s"},
-                                         {"ns", kNano, "s"}, {"100ns", {1.0, 1e7}, "s"}};
+                                         {"ns", kNano, "s"},
+                                         {"100ns", {1.0, 1e7}, "s"}};
   static const std::vector<Unit> angle = {
       {"rad", kOne, "rad"},           {"mrad", kMilli, "rad"},
       {"deg", {kPi, 180.0}, "rad"},   {"arcmin", {kPi, 180.0 * 60.0}, "rad"},

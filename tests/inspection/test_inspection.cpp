@@ -148,15 +148,14 @@ const std::vector<Fault> kFaults = {
      },
      {"unit of x1"},
      "rad/s, more than 3000"},
-    {"wrapped",
+    {"lost_counts",
      [] {
        return changed([](Rows& r) {
-         for (double& x : r.x1) x = x < 0.05 ? x + 2.0 * kPi : x;
+         for (std::size_t i = 4321; i < r.x1.size(); ++i) r.x1[i] += 0.3;
        });
      },
      {"jumps"},
-     "unwrap"},
-    {"spike", [] { return changed([](Rows& r) { r.x1[4321] += 0.3; }); }, {"jumps"}, "in line 4323"},
+     "in line 4323"},
     {"held_position",
      [] {
        return changed([](Rows& r) {
@@ -240,6 +239,19 @@ TEST(Inspection, ARecordingThatCannotShowAnInertiaSaysSo) {
   EXPECT_THAT(finding(light, "scale of u").advice, HasSubstr("motor_inertia"));
 }
 
+TEST(Inspection, WrapsAndSpikesAreMendedAndNoted) {
+  const Inspection wrapped = inspected(changed([](Rows& r) {
+    for (double& x : r.x1) x = x < 0.05 ? x + 2.0 * kPi : x;
+  }));
+  EXPECT_EQ(finding(wrapped, "jumps").severity, Severity::kNote) << wrapped.report();
+  EXPECT_THAT(finding(wrapped, "jumps").found, HasSubstr("begins anew"));
+  EXPECT_NEAR(wrapped.facts.travel, inspected(good()).facts.travel, 1e-6);
+  const Inspection spike = inspected(changed([](Rows& r) { r.x1[4321] += 0.3; }));
+  EXPECT_EQ(finding(spike, "jumps").severity, Severity::kNote) << spike.report();
+  EXPECT_THAT(finding(spike, "jumps").found, HasSubstr("the first in line 4323"));
+  EXPECT_FALSE(spike.spoilt()) << spike.report();
+}
+
 TEST(Inspection, APauseOfAgesCostsNoMemory) {
   Rows rows = good();
   for (std::size_t i = 5000; i < rows.t.size(); ++i) rows.t[i] += 1e9;
@@ -251,11 +263,11 @@ TEST(Inspection, WhatIsNoRecordingIsRefusedAsEverywhere) {
   const TemporaryFile word("t,u,x1\n0,zero,1\n"), few("t,u,x1\n0,0,0\n1,0,0\n");
   EXPECT_THAT(testing::refusal([&] { inspect(word.path()); }), HasSubstr("r.csv:2: u is 'zero', expected"));
   EXPECT_THAT(testing::refusal([&] { inspect(few.path()); }), HasSubstr("2 samples, expected at least 50"));
-  std::string backwards = "t,u,x1\n";
-  for (int i = 0; i < 100; ++i) backwards += fmt::format("{},1,2\n", 0.01 * (100 - i));
-  const TemporaryFile reversed(backwards);
-  EXPECT_THAT(testing::refusal([&] { inspect(reversed.path()); }),
-              HasSubstr(":3: t is not later than in the row before, and so in 99 rows, expected time that"));
+  std::string standing = "t,u,x1\n";
+  for (int i = 0; i < 100; ++i) standing += fmt::format("{},1,2\n", i < 5 ? 0.01 * i : 0.0);
+  const TemporaryFile stands(standing);
+  EXPECT_THAT(testing::refusal([&] { inspect(stands.path()); }),
+              HasSubstr(":7: t is not later than in the row before, and so in 95 rows, expected time that"));
 }
 
 TEST(Inspection, TheRealRecordings) {

@@ -60,13 +60,10 @@ TEST(SeemingInput, APositiveOneWithItsSignIsNone) {
 }
 
 TEST(SeemingInput, ARowThatHasWhatActedBeforeIsTold) {
-  for (const Rows& rows : {rig(test::two_tones,
-                               [] {
-                                 TestDrive stiff;
-                                 stiff.gap = 0.0;
-                                 return stiff;
-                               }()),
-                           closed_loop()}) {
+  TestDrive one_body;
+  one_body.m2 = 0.0;
+  const auto lively = [](double t) { return 0.5 * std::sin(6.0 * t) + 0.5 * std::sin(150.0 * t); };
+  for (const Rows& rows : {rig(lively, one_body), closed_loop()}) {
     const Rows moved = changed(rows, late);
     const Inspection i = inspected(moved);
     EXPECT_EQ(finding(i, "scale of u").severity, Severity::kSpoils) << i.report();
