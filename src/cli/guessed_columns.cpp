@@ -9,8 +9,8 @@
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
 #include "gapscope/base/text.h"
+#include "gapscope/inspection/column_guess.h"
 #include "gapscope/recording/axes.h"
-#include "gapscope/recording/column_guess.h"
 #include "gapscope/recording/column_name.h"
 
 namespace gapscope::cli {

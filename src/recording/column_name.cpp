@@ -6,12 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/column_words.h"
-
 namespace gapscope {
 namespace {
-
-using internal::recording::words_of;
 
 /// Other ways to write a unit in the name of a column, in small letters.
 struct Spelling {
@@ -65,7 +61,7 @@ std::vector<std::string_view> ends_of(std::string_view column) {
 /// Whether the name says, too, what is measured in a unit of one letter.
 bool says_quantity(std::string_view column, char unit) {
   const char* quantity = unit == 'A' ? "current" : unit == 'V' ? "volt" : unit == 'N' ? "force" : nullptr;
-  const std::vector<std::string> words = words_of(column);
+  const std::vector<std::string> words = words_of_name(column);
   return quantity != nullptr && std::any_of(words.begin(), words.end(), [&](const std::string& word) {
            return word.starts_with(quantity);
          });
@@ -73,13 +69,26 @@ bool says_quantity(std::string_view column, char unit) {
 
 }  // namespace
 
+std::vector<std::string> words_of_name(std::string_view name) {
+  std::vector<std::string> words(1);
+  bool small = false;  // the last letter was
+  for (const char letter : name) {
+    const auto c = static_cast<unsigned char>(letter);
+    if (std::isalpha(c) == 0 || (small && std::isupper(c) != 0)) words.emplace_back();
+    if (std::isalpha(c) != 0) words.back() += static_cast<char>(std::tolower(c));
+    small = std::islower(c) != 0;
+  }
+  std::erase(words, std::string());
+  return words;
+}
+
 bool says_temperature(std::string_view column) {
   for (const std::string_view unit : {"°C", "°F", "℃", "℉", "degC", "degF"}) {
     const std::size_t at = column.find(unit), behind = at + unit.size();
     if (at == column.npos) continue;
     if (behind == column.size() || std::isalpha(static_cast<unsigned char>(column[behind])) == 0) return true;
   }
-  const std::vector<std::string> words = words_of(column);
+  const std::vector<std::string> words = words_of_name(column);
   return std::any_of(words.begin(), words.end(), [](const std::string& word) {
     return word == "temp" || word == "temps" || word.starts_with("temperatur") || word == "celsius" ||
            word == "fahrenheit" || word == "kelvin";

@@ -104,6 +104,36 @@ TEST(Logs, WhatWasAssumedIsData) {
   EXPECT_TRUE(nlohmann::json::parse(place.run("check plain.csv --json").out)["assumed"].empty());
 }
 
+/// Files of users, with the one option that some of them need.
+TEST(Logs, OfUsersGoInWithAtMostOneOption) {
+  GAPSCOPE_NEEDS_DATA();
+  const auto folder = std::filesystem::absolute(testing::data_folder()).parent_path() / "field";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no files of users in " << folder;
+  Workplace place;
+  for (const auto& [file, option] : {std::pair{"logs/unitrow.csv", ""},
+                                     {"logs/blank.csv", ""},
+                                     {"logs/iso.csv", ""},
+                                     {"logs/plc.csv", "--columns 2,4,3"},
+                                     {"robots/wizard_preamble/wizard.csv", "--bits 12"},
+                                     {"robots/iso_signed_load/servo_log.csv", "--bits 12"},
+                                     {"robots/array_cells/state.csv", ""},
+                                     {"robots/plotjuggler/plotjuggler.csv", ""},
+                                     {"robots/frc_tests/s9_all.csv", ""},
+                                     {"robots/wpilog/arm.wpilog", ""},
+                                     {"robots/cogging_speed_loop/hall.csv", ""},
+                                     {"robots/position_actuator/s3_a.csv", ""},
+                                     {"robots/stribeck_zero_help/s6_a.csv", ""},
+                                     {"motion/speed/r.csv", ""},
+                                     {"motion/stepper/r.csv", "--input steps_mm"}}) {
+    const auto check = place.run("check " + (folder / file).string() + " " + option);
+    EXPECT_NE(check.status, 2) << file << check.err;
+    EXPECT_EQ(check.err, "") << file;
+  }
+  for (const char* servo : {"s6_a_abs.csv", "s6_b_abs.csv"})
+    EXPECT_THAT(place.run("check " + (folder / "robots/abs_current" / servo).string()).out,
+                HasSubstr("a magnitude"));
+}
+
 TEST(Logs, AUnitOfSomethingElseIsRefusedWithWhatToDo) {
   Workplace place;
   place.file("log.csv", "t,u,speed_rpm,Angle [xyz]\n0,0,0,0\n");

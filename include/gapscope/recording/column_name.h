@@ -2,10 +2,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gapscope/recording/units.h"
 
 namespace gapscope {
+
+/// The words of "Motor_tempCoil2": "motor", "temp", "coil".
+std::vector<std::string> words_of_name(std::string_view name);
 
 /// Whether the name of a column, or a unit in it, is that of a temperature: "motor_temp", "coil [°C]". No
 /// drive is moved by one.

@@ -1,4 +1,4 @@
-#include "recording/column_words.h"
+#include "inspection/column_words.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 #include "gapscope/base/text.h"
 #include "gapscope/recording/column_name.h"
 
-namespace gapscope::internal::recording {
+namespace gapscope::internal::inspection {
 namespace {
 
 /// A word and how well it says what the column is.
@@ -92,7 +92,7 @@ bool is_word(const std::string& word, std::string_view known) {
 /// The best of the words in a name; a name that is the word alone says it best.
 int best_of(std::string_view stem, std::span<const Word> known) {
   const std::string whole = small_of(stem);
-  const std::vector<std::string> words = words_of(stem);
+  const std::vector<std::string> words = words_of_name(stem);
   int best = 0;
   for (const Word& w : known) {
     const bool single =
@@ -110,24 +110,11 @@ int best_of(std::string_view stem, std::span<const Word> known) {
 
 }  // namespace
 
-std::vector<std::string> words_of(std::string_view name) {
-  std::vector<std::string> words(1);
-  bool small = false;  // the last letter was
-  for (const char letter : name) {
-    const auto c = static_cast<unsigned char>(letter);
-    if (std::isalpha(c) == 0 || (small && std::isupper(c) != 0)) words.emplace_back();
-    if (std::isalpha(c) != 0) words.back() += static_cast<char>(std::tolower(c));
-    small = std::islower(c) != 0;
-  }
-  std::erase(words, std::string());
-  return words;
-}
-
 int likeness(const std::string& name, ColumnRole role) {
   const std::string_view stem = stem_of(name);
   const int says = best_of(stem, words_for(role));
   if (says == 0 || says_temperature(name)) return 0;
-  const std::vector<std::string> words = words_of(stem);
+  const std::vector<std::string> words = words_of_name(stem);
   for (const char* other : kOthers)
     if (contains(words, other)) return 0;
   const bool commanded = best_of(stem, kTargets) > 0, position = best_of(stem, kPositions) > 0,
@@ -151,7 +138,7 @@ int likeness(const std::string& name, ColumnRole role) {
 
 int shared_words(const std::string& a, const std::string& b) {
   const auto parts = [](const std::string& name) {
-    std::vector<std::string> all = words_of(name);
+    std::vector<std::string> all = words_of_name(name);
     std::string digits;
     for (const char c : name + " ") {
       if (std::isdigit(static_cast<unsigned char>(c)) != 0)
@@ -166,4 +153,4 @@ int shared_words(const std::string& a, const std::string& b) {
       std::count_if(of_a.begin(), of_a.end(), [&](const std::string& w) { return contains(of_b, w); }));
 }
 
-}  // namespace gapscope::internal::recording
+}  // namespace gapscope::internal::inspection

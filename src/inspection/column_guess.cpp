@@ -1,4 +1,4 @@
-#include "gapscope/recording/column_guess.h"
+#include "gapscope/inspection/column_guess.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,19 +16,20 @@
 #include "gapscope/recording/axes.h"
 #include "gapscope/recording/column_name.h"
 #include "gapscope/recording/register_look.h"
-#include "recording/column_words.h"
+#include "inspection/column_words.h"
 #include "recording/file_kind.h"
 #include "recording/recorded_rows.h"
 #include "recording/row_clock.h"
+#include "recording/table_form.h"
 
 namespace gapscope {
 namespace {
 
-using internal::recording::ColumnRole;
+using internal::inspection::ColumnRole;
+using internal::inspection::likeness;
+using internal::inspection::shared_words;
 using internal::recording::FieldKind;
 using internal::recording::kind_of_field;
-using internal::recording::likeness;
-using internal::recording::shared_words;
 using internal::recording::TableForm;
 
 /// A file's columns as they are looked at.

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "gapscope/base/text.h"
-#include "gapscope/recording/column_guess.h"
+#include "gapscope/inspection/column_guess.h"
 #include "gapscope/recording/column_name.h"
 #include "recording/csv_rows.h"
 
