@@ -42,7 +42,9 @@ ColumnGuess declared_columns(const RecordingArguments& a, const std::vector<std:
   if (a.time != "t" || contains(names, a.time)) g.time = a.time;
   g.input = a.input.empty() && a.target.empty() && contains(names, "u") ? "u" : a.input;
   g.speed = a.speed, g.target = a.target;
-  g.position = a.position.empty() && a.speed.empty() && contains(names, usual) ? usual : a.position;
+  // The motor's own name is never taken for the load's.
+  const bool has_usual = contains(names, usual) || contains(names, "x1");
+  g.position = a.position.empty() && a.speed.empty() && has_usual ? usual : a.position;
   g.time_unit = a.units.time, g.input_unit = a.units.input, g.position_unit = a.units.position;
   g.speed_unit = a.units.speed;
   return g;
@@ -61,9 +63,23 @@ bool is_length(const ColumnGuess& g) {
          is_only(g.speed_unit, g.speed, Quantity::kSliding, Quantity::kTurning);
 }
 
+/// What is declared without a file is looked at before one is.
+/// @throws ConfigError for a unit or a register that is not known
+void require_known_units(const RecordingArguments& a) {
+  RecordingArguments declared;
+  declared.units = a.units, declared.registers = a.registers, declared.input_register = a.input_register;
+  declared.bits = a.bits, declared.gear = a.gear, declared.side = a.side,
+  declared.speed = a.speed.empty() ? "" : "w";
+  ColumnGuess position;
+  position.position_unit = a.units.position, position.speed_unit = a.units.speed;
+  declared.translation = a.translation || is_length(position);
+  declared.configuration();
+}
+
 }  // namespace
 
 RecordingArguments with_guesses(RecordingArguments a) {
+  require_known_units(a);
   if (!a.columns.empty()) take_columns(a);
   if (!a.axis.empty()) return a;
   ColumnGuess g = guess_columns(a.file, declared_columns(a, recorded_names(a.file)), a.rate > 0.0);

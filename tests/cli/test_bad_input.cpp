@@ -80,7 +80,7 @@ const std::vector<BadInput> kRecordings = {
     recording("no_position", with(rows(60), "x1", "y"), "r.csv:1: there is no column 'x1'"),
     recording("bars", "t|u|x1\n0|0|0\n", "r.csv:1: there is no column 't'"),
     recording("word", with(rows(60), "0.003000,0.5", "0.003000,half"), "r.csv:5: u is 'half'"),
-    recording("nan", with(rows(60), "0.25\n0.006", "nan\n0.006"), "r.csv:7: x1 is 'nan'"),
+    recording("infinite", with(rows(60), "0.25\n0.006", "inf\n0.006"), "r.csv:7: x1 is 'inf'"),
     recording("short_row", rows(60) + "0.06\n", "r.csv:62: 1 fields"),
     recording("decimal_commas", rows(60) + "0,06,0,5,0,25\n", "r.csv:62: 6 fields"),
     recording("time_back", rows(60) + "0.01,0,0\n", "r.csv:62: t goes from 0.059 to 0.01 s"),

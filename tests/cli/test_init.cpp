@@ -238,10 +238,10 @@ TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
 TEST(Init, AWarningSaysWhatToDo) {
   Workplace place;
   testing::Rows rows = testing::rig();
-  for (double& t : rows.t) t *= 1000.0;
+  for (double& t : rows.t) t *= 500.0;
   place.file("ms.csv", rows.csv());
   EXPECT_THAT(place.run("init ms.csv --model gap").err, HasSubstr("or declare its unit: recording: units"));
-  EXPECT_EQ(place.run("init ms.csv --model gap --time-unit ms -o right.yaml").err, "");
+  EXPECT_EQ(place.run("init ms.csv --model gap --time-unit 0.002 -o right.yaml").err, "");
   place.file("short.csv", one_body_csv([](double t) { return t < 3.0 ? 0.3 : -0.3; }));
   EXPECT_EQ(place.run("init short.csv --model one_body").err, "") << "nobody asks the detector";
   const auto usage = place.run("init ms.csv --mass 1");

@@ -131,7 +131,7 @@ TEST(Logs, OfUsersGoInWithAtMostOneOption) {
   }
   for (const char* servo : {"s6_a_abs.csv", "s6_b_abs.csv"})
     EXPECT_THAT(place.run("check " + (folder / "robots/abs_current" / servo).string()).out,
-                HasSubstr("a magnitude"));
+                HasSubstr("spoils      input"));
 }
 
 TEST(Logs, AUnitOfSomethingElseIsRefusedWithWhatToDo) {
@@ -157,7 +157,7 @@ TEST(Logs, WhatTheYamlSaysOfRowsIsHeldToItsRange) {
     return place.run("detect c.yaml").err;
   };
   EXPECT_THAT(refused("rate: -1"),
-              HasSubstr("c.yaml:4: recording.rate is -1 Hz, expected 0.001 to 1e+07 Hz"));
+              HasSubstr("c.yaml:4: recording.rate is -1 Hz, expected 0.001 to 10000000 Hz"));
   EXPECT_THAT(refused("input_rows: 1000"), HasSubstr("recording.input_rows is '1000', expected"));
   EXPECT_THAT(refused("unwrap: maybe"), HasSubstr("expected auto or true or false"));
   EXPECT_THAT(refused("columns: {position: x1, speed: u}"),
