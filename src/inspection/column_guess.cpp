@@ -17,9 +17,6 @@
 #include "gapscope/recording/column_name.h"
 #include "gapscope/recording/register_look.h"
 #include "inspection/column_words.h"
-#include "recording/file_kind.h"
-#include "recording/recorded_rows.h"
-#include "recording/row_clock.h"
 #include "recording/table_form.h"
 
 namespace gapscope {
@@ -45,7 +42,7 @@ struct Seen {
 Seen seen_in(const std::string& path) {
   Seen seen;
   seen.names = recorded_names(path);
-  seen.is_text = internal::recording::kind_of(path).ending.empty();
+  seen.is_text = internal::recording::is_text_table(path);
   if (seen.is_text) seen.form = internal::recording::table_of(path);
   return seen;
 }

@@ -21,7 +21,7 @@ struct Word {
 /// them.
 constexpr Word kTimes[] = {{"t", 9},        {"time", 8},    {"timestamp", 8}, {"zeit", 8},    {"stamp", 6},
                            {"datetime", 7}, {"clock", 5},   {"date", 3},      {"elapsed", 6}, {"temps", 6},
-                           {"epoch", 5},    {"seconds", 5}, {"millis", 5}};
+                           {"epoch", 5},    {"seconds", 5}, {"xvalue", 8},    {"millis", 5}};
 constexpr Word kInputs[] = {{"u", 9},          {"torque", 8},  {"tau", 8},   {"effort", 8},  {"moment", 7},
                             {"drehmoment", 8}, {"force", 8},   {"kraft", 8}, {"current", 7}, {"iq", 7},
                             {"strom", 7},      {"courant", 7}, {"amps", 6},  {"curr", 6},    {"couple", 7},
@@ -103,7 +103,7 @@ int best_of(std::string_view stem, std::span<const Word> known) {
     if (whole == w.text)
       best = std::max(best, 2 * w.says);
     else if (in_it || leads)
-      best = std::max(best, w.says);
+      best = std::max(best, leads ? w.says / 2 : w.says);
   }
   return best;
 }
@@ -117,21 +117,21 @@ int likeness(const std::string& name, ColumnRole role) {
   const std::vector<std::string> words = words_of_name(stem);
   for (const char* other : kOthers)
     if (contains(words, other)) return 0;
-  const bool commanded = best_of(stem, kTargets) > 0, position = best_of(stem, kPositions) > 0,
-             speed = best_of(stem, kSpeeds) > 0, input = best_of(stem, kInputs) > 0;
+  const int commanded = best_of(stem, kTargets), position = best_of(stem, kPositions),
+            speed = best_of(stem, kSpeeds), input = best_of(stem, kInputs);
   switch (role) {
     case ColumnRole::kTime:
       return says;
     case ColumnRole::kInput:
-      return position || speed ? 0
-             : commanded       ? 1
-                               : says;  // the load's position; what was measured comes first
+      return position > says || speed > says ? 0
+             : commanded > 0                 ? 1
+                                             : says;  // the load's position; what was measured comes first
     case ColumnRole::kPosition:
-      return commanded || speed ? 0 : says;
+      return commanded > 0 || speed > 0 ? 0 : says;
     case ColumnRole::kSpeed:
-      return commanded ? 0 : says;
+      return commanded > 0 ? 0 : says;
     case ColumnRole::kTarget:
-      return speed || input ? 0 : says + (position ? 8 : 0);
+      return speed > 0 || input > 0 ? 0 : says + (position > 0 ? 8 : 0);
   }
   return 0;
 }

@@ -39,7 +39,8 @@ double grid_rate(const RecordedRows& rows) {
 }
 
 Recording on_grid(RecordedRows rows, const ReadOptions& options) {
-  const double quantum = internal::signals::quantum_or_least_step(rows.x1);
+  // An integral steps by no encoder.
+  const double quantum = rows.integrated ? 0.0 : internal::signals::quantum_or_least_step(rows.x1);
   Recording r = options.resample_rate ? internal::recording::resample(rows, *options.resample_rate)
                 : internal::recording::is_uniform(rows)
                     ? internal::recording::uniform_recording(RecordedRows(rows))

@@ -8,6 +8,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
+#include "recording/file_kind.h"
 #include "recording/recorded_rows.h"
 
 namespace gapscope::internal::recording {
@@ -186,7 +187,7 @@ void tell(const Split& s, const std::vector<Line>& lines, TableForm& form) {
   std::int64_t table = form.header > 0 ? form.header : form.first;
   long before = 0;
   for (const Line& line : lines) before += line.number < table && !line.comment;
-  if (before > 0) say("table.lines_before", "{} lines before it", {before});
+  if (before > 0) say("table.lines_before", "lines before it: {}", {before});
   if (s.separator == kBlanks) say("table.blanks", "blanks between the columns");
 }
 
@@ -209,6 +210,8 @@ TableForm find_table(std::string_view head) {
   tell(best, lines, form);
   return form;
 }
+
+bool is_text_table(const std::string& path) { return kind_of(path).ending.empty(); }
 
 TableForm table_of(const std::string& path) {
   std::ifstream in = open_recording_file(path);

@@ -53,6 +53,9 @@ struct TableForm {
 /// @param head  the first lines of the text
 TableForm find_table(std::string_view head);
 
+/// Whether a file is a text with a table, by its name: it is of no kind that has arrays.
+bool is_text_table(const std::string& path);
+
 /// Of a file.  @throws ConfigError where it cannot be read
 TableForm table_of(const std::string& path);
 
