@@ -50,6 +50,14 @@ void keep_figures(const Inputs& in, double bound, const DetectorOptions& options
         internal::sliding_mode::bound_map(*shown, in.facts[shown - in.recordings.begin()], estimate);
 }
 
+/// A reading with one bound says nothing of what another would have read.
+void limit_to_bound(GapEstimate& estimate) {
+  if (estimate.verdict != GapVerdict::kBacklash) return;
+  estimate.trust = GapTrust::kLimited;
+  estimate.tested = {{words::same_with_other_bounds(), false}};
+  estimate.presumes = {words::one_gap(), words::load_rests(), words::own_encoder()};
+}
+
 GapEstimate decide_gap(const Inputs& in, std::span<const ImpactAnalysis> analyses, const LoopSearch& loops,
                        const DetectorOptions& options) {
   return internal::sliding_mode::decide_gap(in.recordings, in.facts, analyses, loops, options);
@@ -71,6 +79,7 @@ GapEstimate detect_paper(const Inputs& in, std::span<const ImpactAnalysis> analy
     estimate.reason += other;
   }
   keep_figures(in, options.bound, options, estimate);
+  limit_to_bound(estimate);
   return estimate;
 }
 
@@ -79,6 +88,7 @@ GapEstimate detect_as_printed(const Inputs& in, const DetectorOptions& options) 
   GapEstimate estimate =
       internal::sliding_mode::read_recordings_as_printed(in.recordings, in.facts, options.bound);
   keep_figures(in, options.bound, options, estimate);
+  limit_to_bound(estimate);
   return estimate;
 }
 

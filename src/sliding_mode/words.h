@@ -82,6 +82,7 @@ Remark single_passages();
 Remark load_known();
 Remark narrow_interval();
 Remark levels_agree();
+Remark same_with_other_bounds();
 Remark one_gap();
 Remark load_rests();
 Remark own_encoder();
