@@ -57,21 +57,20 @@ std::vector<FileHash> files_of(std::vector<FileHash> sources) {
   return sources;
 }
 
-bool share_one(const std::vector<FileHash>& a, const std::vector<FileHash>& b, std::string FileHash::*what) {
+bool share_one(const std::vector<FileHash>& a, const std::vector<FileHash>& b) {
   return std::any_of(a.begin(), a.end(), [&](const FileHash& f) {
-    return std::any_of(b.begin(), b.end(), [&](const FileHash& g) { return f.*what == g.*what; });
+    return std::any_of(b.begin(), b.end(), [&](const FileHash& g) { return f.sha256 == g.sha256; });
   });
 }
 
-/// Recordings are the same by what they hold, or where a drive of the same name was recorded anew in the same
-/// file; a simulation by its name. What cannot be told is no other.
+/// Recordings are the same by what they hold, whatever they are called; a simulation by its name. What cannot
+/// be told is no other.
 bool are_other(const Half& stored, const ReportedData& data) {
   const std::vector<FileHash> before = files_of(stored.sources), now = files_of(data.sources);
   if (stored.sources.empty() || (!data.simulated && now.empty())) return false;
   if (data.simulated && stored.name != data.name) return true;
   if (before.empty() && now.empty()) return false;
-  const bool anew = stored.name == data.name && share_one(before, now, &FileHash::file);
-  return !anew && !share_one(before, now, &FileHash::sha256);
+  return !share_one(before, now);
 }
 
 /// "rig, of train.csv", "rig, simulated"

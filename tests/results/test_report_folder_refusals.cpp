@@ -113,8 +113,8 @@ TEST(ReportFolder, KnowsADriveByItsRecordingsAndASimulationByItsName) {
   const FileHash configuration{"configuration", "9"};
   EXPECT_FALSE(are_other("rig", recorded, {"rig", false, {configuration, {"a.csv", "1"}}}));
   EXPECT_FALSE(are_other("rig", recorded, {"renamed", false, {configuration, {"moved.csv", "2"}}}));
-  EXPECT_FALSE(are_other("rig", recorded, {"rig", false, {configuration, {"a.csv", "3"}}}))
-      << "recorded anew";
+  EXPECT_TRUE(are_other("rig", recorded, {"rig", false, {configuration, {"a.csv", "3"}}}))
+      << "another drive, or recorded anew, under the same names";
   EXPECT_TRUE(are_other("rig", recorded, {"rig", false, {configuration, {"c.csv", "3"}}}));
   EXPECT_TRUE(are_other("rig", recorded, {"arm", false, {configuration, {"a.csv", "3"}}}));
   EXPECT_TRUE(are_other("rig", recorded, {"rig", true, {configuration}})) << "simulated";
