@@ -171,35 +171,43 @@ std::string likely_others(const SimulatorRow& row) {
   return others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, " or "));
 }
 
-std::string comparison_sentence(const SimulatorComparison& c, Coordinates coordinates) {
+std::string differing_sentence(const SimulatorComparison& c, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const SimulatorRow& row : c.rows)
     if (row.differs) parts.push_back(row.sentence);
-  if (parts.empty())
-    return fmt::format(
-        "Your simulator lacks nothing that these recordings would show above two floors. Over the held-out "
-        "input it is {} rms off the drive.",
-        coordinates.thousandths(c.errors.simulator));
   return fmt::format("Your simulator differs from the drive: {}.", fmt::join(parts, "; ")) +
          mended_words(c, coordinates);
 }
 
-/// No row differs, but what the model leaves on a side is more than a row would have to show. A simulator
-/// that it does not follow was not compared at all.
-std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
-                            Coordinates coordinates) {
+/// What keeps "no row differs" from being all that there is to say; empty where nothing does. A simulator
+/// that the model does not follow was not compared at all.
+std::string hidden_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors) {
   const SharedUnit floors(1.0, "");
-  const std::string off = fmt::format("Over the held-out input your simulator is {} rms off the drive.",
-                                      coordinates.thousandths(c.errors.simulator));
   if (simulator_floors > kRule.far)
     return fmt::format(
-        "What differs is not told: the model with all effects of both leaves {} floors on your "
-        "simulator, which it does not follow. {}",
-        floors.number(simulator_floors), off);
-  return fmt::format(
-      "No row differs, but the model with all effects of both leaves {} floors on the drive: what differs "
-      "may hide there. {}",
-      floors.number(drive_floors), off);
+        "What differs is not told: the model with all effects of both leaves {} floors on your simulator, "
+        "which it does not follow.",
+        floors.number(simulator_floors));
+  if (drive_floors > kRule.far)
+    return fmt::format(
+        "No row differs, but the model with all effects of both leaves {} floors on the drive: what differs "
+        "may hide there.",
+        floors.number(drive_floors));
+  if (const double off = c.errors.simulator / c.floor; off > kLeastRow)
+    return fmt::format(
+        "What differs is not told: no row does, though your simulator is {} floors off the drive.",
+        floors.number(off));
+  return "";
+}
+
+std::string alike_sentence(const SimulatorComparison& c, double drive_floors, double simulator_floors,
+                           Coordinates coordinates) {
+  const std::string hidden = hidden_sentence(c, drive_floors, simulator_floors);
+  return fmt::format("{} Over the held-out input your simulator is {} rms off the drive.",
+                     hidden.empty()
+                         ? "Your simulator lacks nothing that these recordings would show above two floors."
+                         : hidden,
+                     coordinates.thousandths(c.errors.simulator));
 }
 
 }  // namespace
@@ -217,9 +225,8 @@ std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow
 std::string sentence_beside(const SimulatorComparison& c, double drive_floors, double simulator_floors,
                             Coordinates coordinates) {
   const bool differs = !c.rows.empty() && c.rows.front().differs;
-  return !differs && std::max(drive_floors, simulator_floors) > kRule.far
-             ? hidden_sentence(c, drive_floors, simulator_floors, coordinates)
-             : comparison_sentence(c, coordinates);
+  return differs ? differing_sentence(c, coordinates)
+                 : alike_sentence(c, drive_floors, simulator_floors, coordinates);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -12,8 +12,8 @@ namespace gapscope::internal::diagnosis {
 std::string row_sentence(const SimulatorRow& row, const std::vector<SimulatorRow>& rows, double dt,
                          Coordinates coordinates);
 
-/// The whole in a few sentences. Where no row differs and the model leaves a side more than a row would have
-/// to show, that something may hide there.
+/// The whole in a few sentences. Where no row differs, but the model leaves a side more than a row would have
+/// to show, or the simulator is off the drive by that much, what differs is not told.
 /// @param drive_floors, simulator_floors  what the model with all effects of both leaves on either [floor]
 std::string sentence_beside(const SimulatorComparison& comparison, double drive_floors,
                             double simulator_floors, Coordinates coordinates);

@@ -80,6 +80,11 @@ TEST(SimulatorWords, SayThatSomethingMayHideWhereTheModelMissesASide) {
     EXPECT_THAT(sentence_beside(c, drive, 35.0, Coordinates()),
                 ::testing::AllOf(HasSubstr("What differs is not told"),
                                  HasSubstr("35 floors on your simulator"), Not(HasSubstr("No row differs"))));
+  c.floor = 1e-3;
+  EXPECT_THAT(sentence_beside(c, 2.0, 1.0, Coordinates()),
+              HasSubstr("What differs is not told: no row does, though your simulator is 3 floors off"));
+  c.floor = 1.6e-3;
+  EXPECT_THAT(sentence_beside(c, 2.0, 1.0, Coordinates()), HasSubstr("Your simulator lacks nothing"));
   c.rows.front().differs = true, c.rows.front().sentence = "its motor inertia is off";
   EXPECT_THAT(sentence_beside(c, 35.0, 1.0, Coordinates()), HasSubstr("differs from the drive: its motor"));
 }
