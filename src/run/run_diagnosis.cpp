@@ -173,10 +173,13 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
     if (!more.empty()) warnings.push_back(std::move(more));
   d.warnings.insert(d.warnings.begin(), warnings.begin(), warnings.end());
   for (std::string& warning : d.warnings) warning = with_input_unit(warning, c.input_facts());
-  if (!simulated.empty() && finish_requested())
-    d.warnings.emplace_back("stopped before the simulator was looked at.");
-  else if (!simulated.empty())
-    result.simulated = internal::run::compare_simulated(c, recordings, simulated, d, options);
+  if (!simulated.empty()) {
+    result.simulated = unless_finishing(
+        [&] { return internal::run::compare_simulated(c, recordings, simulated, d, options); });
+    if (!result.simulated)
+      d.warnings.emplace_back(
+          "stopped before the simulator was looked at to the end: nothing is told of it.");
+  }
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
   return {std::move(result), std::move(recordings.train.recordings.front())};
 }

@@ -8,9 +8,13 @@
 #include <numeric>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_facts.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/base/statistics.h"
+#include "gapscope/base/text.h"
 #include "gapscope/results/sha256.h"
 #include "run/fitted_command.h"
+#include "signals/encoder.h"
 
 namespace gapscope::internal::run {
 namespace {
@@ -143,7 +147,11 @@ SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRec
   SimulatorComparison compared = compare_with_simulator(
       {train, held_out, simulated_train, simulated_held_out, drive, of_simulator}, options);
   compared.files = simulated.files;
-  compared.warnings.insert(compared.warnings.begin(), simulated.warnings.begin(), simulated.warnings.end());
+  std::vector<std::string> warnings = simulated.warnings;
+  for (const std::string& warning : of_simulator.warnings)
+    if (!contains(drive.warnings, warning))
+      warnings.push_back("diagnosis of the simulator: " + with_input_unit(warning, c.input_facts()));
+  compared.warnings.insert(compared.warnings.begin(), warnings.begin(), warnings.end());
   return compared;
 }
 
