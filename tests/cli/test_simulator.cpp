@@ -149,8 +149,7 @@ TEST(SimulatorBeside, IsRefusedByFileLineAndExpectation) {
         std::tuple("drive.yaml --simulated ./drive.csv",
                    "--simulated names ./drive.csv, which is named already",
                    "expected a file of its own with what the simulator answers"),
-        std::tuple("drive.yaml --simulated copy.csv",
-                   "copy.csv: has the position of drive.csv to the last digit in all 100 rows",
+        std::tuple("drive.yaml --simulated copy.csv", "copy.csv: follows drive.csv to 0 rad where that moves",
                    "expected what the simulator answers to its input"),
         std::tuple("drive.yaml --simulated late.csv --simulated other.csv", "--simulated names 2 files",
                    "expected one for each of recording: file (1)")}) {

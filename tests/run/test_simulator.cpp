@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <functional>
+#include <utility>
 
+#include "gapscope/base/interrupt.h"
+#include "gapscope/base/random.h"
 #include "gapscope/base/text.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/run/run_diagnosis.h"
@@ -47,6 +52,13 @@ class DriveAndSimulator {
            "encoder: {bits: 18, side: load}\nmodel: {parameters: {motor_inertia: 1.0e-3, torque_constant: 1, "
            "motor_damping: {estimate: true}, mass_ratio: 0}}\n";
   }
+  /// The drive's own recording in the simulator's place.
+  /// @param changed  of the position of row i
+  void copy_drive(const std::function<double(std::size_t i, double x1)>& changed) const {
+    Recording r = read_recording(at("drive.csv"), ReadOptions());
+    for (std::size_t i = 0; i < r.size(); ++i) r.x1[i] = changed(i, r.x1[i]);
+    write_csv(at("sim.csv"), r);
+  }
   /// What the simulator wrote, in another unit.
   void rescale_simulator(double times) const {
     Recording r = read_recording(at("sim.csv"), ReadOptions());
@@ -59,11 +71,15 @@ class DriveAndSimulator {
     return internal::run::load_simulated(c, load_for_diagnosis(c, quiet), quiet);
   }
   /// Of the parameters alone: no effect is a candidate.
-  SimulatorComparison compared() const {
+  DiagnosisResult diagnosed(const Progress& progress) const {
     const Configuration c = load_configuration(at("drive.yaml"));
     DiagnosisOptions options = diagnosis_options(c);
     for (const EffectEntry* e : effect_table()) options.excluded.emplace_back(e->name);
-    return *run_diagnosis(c, options).result.simulated;
+    options.progress = progress;
+    return run_diagnosis(c, options).result;
+  }
+  SimulatorComparison compared() const {
+    return *diagnosed([](const std::string&) {}).simulated;
   }
 
  private:
@@ -84,6 +100,39 @@ TEST(Simulator, OfTheSamePhysicsLacksNothing) {
   for (const SimulatorRow& row : c.rows) EXPECT_FALSE(row.differs) << row.name << " by " << row.floors;
   EXPECT_THAT(c.sentence, HasSubstr("lacks nothing"));
   EXPECT_TRUE(std::isnan(c.shrink));
+}
+
+/// What a search that was stopped had not come to would be told as the same in both.
+TEST(Simulator, OfWhichTheSearchIsStoppedIsToldNothing) {
+  for (const char* when : {"simulator: ", "laying drive and simulator"}) {
+    const FinishFirst first;
+    const DiagnosisResult r = DriveAndSimulator("0.016").diagnosed([&](const std::string& what) {
+      if (what.starts_with(when)) request_finish();
+    });
+    EXPECT_TRUE(finish_requested()) << when;
+    EXPECT_FALSE(r.simulated) << when;
+    EXPECT_FALSE(r.diagnosis.stopped) << "of the drive all was told by then";
+    EXPECT_THAT(r.diagnosis.warnings,
+                ::testing::Contains(HasSubstr("stopped before the simulator was looked at to the end")));
+  }
+}
+
+TEST(Simulator, ThatIsACopyOfTheRecordingIsRefused) {
+  const DriveAndSimulator pair("0.019");
+  const double quantum = 2.0 * kPi / std::exp2(18.0);
+  auto random = random_stream(7, "copy");
+  const std::pair<const char*, std::function<double(std::size_t, double)>> copies[] = {
+      {"to the last digit", [](std::size_t, double x) { return x; }},
+      {"one row changed", [&](std::size_t i, double x) { return i == 700 ? x + quantum : x; }},
+      {"moved", [](std::size_t, double x) { return x + 1e-9; }},
+      {"begun at zero", [](std::size_t, double x) { return x - 0.2; }},
+      {"of seven digits", [](std::size_t, double x) { return std::round(1e7 * x) / 1e7; }},
+      {"with noise", [&](std::size_t, double x) { return x + quantum / 6.0 * normal(random); }}};
+  for (const auto& [how, changed] : copies) {
+    pair.copy_drive(changed);
+    EXPECT_THAT(testing::refusal([&] { pair.read(); }), HasSubstr("that is the recording, expected what"))
+        << how;
+  }
 }
 
 TEST(Simulator, WithAnotherGapIsToldSoAndWhatMendingItTakes) {
