@@ -179,13 +179,15 @@ Finding check_hold(const Material& m, RecordingFacts&) {
   constexpr const char* kRule = "fresh samples";
   const signals::FreshRows rows = signals::fresh_rows(m.rows.x1, m.recording.quantum);
   if (rows.filling == signals::Filling::kNone)
-    return {kRule, Severity::kFine, "x1 is read anew for every row", ""};
+    return {kRule, Severity::kFine, "no rows of x1 are held, or on a line between readings", ""};
   if (!rows.are_filled())
-    return {kRule, Severity::kNote,
-            m.recording.quantum > 0.0
-                ? "whether x1 is read anew for every row cannot be told"
-                : "whether x1 is read anew for every row cannot be told: it is in no whole counts",
-            "record the raw counts, at the rate at which they are read, in a faster or longer motion"};
+    return {
+        kRule, Severity::kNote,
+        m.recording.quantum > 0.0
+            ? "whether x1 is read anew for every row cannot be told: from row to row its speed changes by "
+              "less than its counts show"
+            : "whether x1 is read anew for every row cannot be told: it is in no whole counts",
+        "record the raw counts, at the rate at which they are read, in a faster or longer motion"};
   const double rate = 1.0 / (recording::mean_step(m.rows) * rows.every);
   const bool held = rows.filling == signals::Filling::kHeld;
   const std::string found =

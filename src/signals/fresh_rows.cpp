@@ -24,6 +24,7 @@ constexpr double kMostFresh = 1.2, kMostHeld = 1.4;
 /// What is none of rounding to digits: of x, and of its second difference in quanta.
 constexpr double kDigits = 2e-7;  ///< of the travel
 constexpr double kLeastPart = 1e-3, kMostPart = 0.05;
+constexpr double kRoundedBend = 1.5;  ///< of a line that is rounded to counts: one, on a tie two [quanta]
 
 /// A row at which something new shows.
 struct News {
@@ -55,6 +56,12 @@ std::vector<News> bends_in(std::span<const double> x, double quantum) {
                                      : std::max(digits, 1e-4 * largest);
   std::erase_if(news, [&](const News& n) { return n.size <= least; });
   return news;
+}
+
+/// Bends that rounding to counts makes on no line, but for ties.
+std::vector<News> beyond_rounding(std::vector<News> bends, double quantum) {
+  std::erase_if(bends, [quantum](const News& n) { return n.size <= kRoundedBend * quantum; });
+  return bends;
 }
 
 /// Distances between news. One that repeats the last one by single quanta tells nothing: so does a steady
@@ -119,8 +126,10 @@ FreshRows fresh_rows(std::span<const double> x, double quantum) {
   const Common bent = common_distance(telling_distances(bends, quantum));
   if (bent.rows > 0.0) return {Filling::kInterpolated, bent.rows};
   // What is off the counts of an encoder was computed, and by what is not seen here.
-  const bool read = quantum > 0.0 && held.any && bent.any && rows < kMostFresh;
-  return {read ? Filling::kNone : Filling::kCannotBeTold, 1.0};
+  if (quantum <= 0.0 || !held.any || !bent.any || rows >= kMostFresh) return {};
+  const Common far = common_distance(telling_distances(beyond_rounding(bends, quantum), quantum));
+  if (far.rows > 0.0) return {Filling::kInterpolated, far.rows};
+  return {far.any ? Filling::kNone : Filling::kCannotBeTold, 1.0};
 }
 
 }  // namespace gapscope::internal::signals

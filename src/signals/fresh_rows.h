@@ -6,7 +6,7 @@ namespace gapscope::internal::signals {
 
 /// How the rows between two readings of a position came about.
 enum class Filling {
-  kNone,          ///< there are none: the position is read anew for every row
+  kNone,          ///< there are none: no rows are held, or on a line
   kHeld,          ///< the last reading stands again
   kInterpolated,  ///< they lie on a line from reading to reading
   kCannotBeTold   ///< the motion shows too little of it
@@ -22,8 +22,10 @@ struct FreshRows {
 
 /// A held position moves, and an interpolated one changes its speed, at readings alone. So the first, or the
 /// second, difference of rows that are filled n at a time is other than zero only at distances that are
-/// multiples of n, at any speed; rows that are read anew have any distance. Where n is no whole number, as of
-/// a slower clock, a fast motion tells it by the rows for which it stands still.
+/// multiples of n, at any speed; rows that are read anew have any distance. Lines that were rounded to counts
+/// again have second differences of a count anywhere: there only larger ones tell, and without these it
+/// cannot be told. Where n is no whole number, as of a slower clock, a fast motion tells it by the rows for
+/// which it stands still.
 /// @param x        rows of a position, as they stand in the file [rad]
 /// @param quantum  of the encoder, 0: none is known [rad]
 FreshRows fresh_rows(std::span<const double> x, double quantum);
