@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/shown.h"
 #include "gapscope/recording/recording_file.h"
 #include "inspection/rules.h"
 #include "recording/resample.h"
@@ -116,11 +117,12 @@ bool Inspection::spoilt() const {
 
 std::string Inspection::report() const {
   constexpr std::size_t kIndent = 27;
-  std::string text = fmt::format("{:<12}{}\n", "recording", file);
+  std::string text = fmt::format("{:<12}{}\n", "recording", printable(file));
   for (const Finding& f : findings) {
-    text += fmt::format("{:<12}{:<15}{}\n", to_string(f.severity), f.rule, wrapped(f.found, kIndent));
+    text +=
+        fmt::format("{:<12}{:<15}{}\n", to_string(f.severity), f.rule, wrapped(printable(f.found), kIndent));
     if (!f.advice.empty())
-      text += std::string(kIndent, ' ') + wrapped("-> " + f.advice, kIndent + 3).append("\n");
+      text += std::string(kIndent, ' ') + wrapped("-> " + printable(f.advice), kIndent + 3).append("\n");
   }
   return text + fmt::format("{:<12}{}\n", "answer", sum_of(*this));
 }
