@@ -22,6 +22,9 @@ void require_input_file(const std::string& path, const std::string& expected) {
   if (!std::filesystem::exists(there)) throw ConfigError(path, "there is no such file, expected " + expected);
   if (!std::filesystem::is_regular_file(there))
     throw ConfigError(path, "is no regular file, expected " + expected);
+  // Nor is what a kernel shows as a file of no size, which may wait for its first byte for ever.
+  if (const auto size = std::filesystem::file_size(path, problem); !problem && size == 0)
+    throw ConfigError(path, "is empty, expected " + expected);
 }
 
 std::ifstream open_input_file(const std::string& path, const std::string& expected) {

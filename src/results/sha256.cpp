@@ -50,6 +50,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::string& path) {
+  std::error_code unreachable;
+  if (std::filesystem::file_size(path, unreachable) == 0) return sha256("");
   std::ifstream in = open_input_file(path, "a file that can be read");
   Digest digest;
   std::string piece(1 << 20, '\0');

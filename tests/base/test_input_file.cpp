@@ -41,6 +41,10 @@ TEST(InputFile, WhatIsNoFileIsRefusedAtOnce) {
     EXPECT_EQ(refusal(path), path + ": is no regular file, expected a table");
     EXPECT_FALSE(try_input_file(path).is_open());
   }
+  const TemporaryFile nothing("");
+  for (const std::string& path : {nothing.path(), std::string("/proc/kmsg")})
+    EXPECT_EQ(refusal(path), path + ": is empty, expected a table")
+        << "the kernel's log waits for its reader";
   EXPECT_EQ(refusal(folder + "/none"), folder + "/none: there is no such file, expected a table");
   EXPECT_FALSE(try_input_file(folder + "/none").is_open());
 }

@@ -26,7 +26,7 @@ constexpr const char* kResult = "result.json";
 constexpr const char* kTrace = "traces/1_rig.csv";
 
 const std::vector<Damage> kDamages = {
-    {"empty", kResult, "", "", "report/result.json:1: is no valid JSON from here on"},
+    {"empty", kResult, "", "", "report/result.json: is empty"},
     {"cut_off", kResult, "\"comparison\"", "\"compar", "report/result.json:"},
     {"list", kResult, "", "[1, 2]", "report/result.json:1: the document is [1,2], expected an object"},
     {"text", kResult, "", "\"hello\"", "report/result.json:1: the document is \"hello\""},
