@@ -151,12 +151,22 @@ std::vector<std::string> source_paths(const Configuration& c) {
   return paths;
 }
 
+namespace {
+
+/// What an estimate and a diagnosis both rest on; what either alone is asked makes no other drive of it.
+Configuration asked_of_both(Configuration c) {
+  c.detector = {}, c.next_experiment = {}, c.diagnosis = {}, c.tolerance = {};
+  c.excluded.clear();
+  if (c.recording) c.recording->simulated.clear();
+  return c;
+}
+
+}  // namespace
+
 std::vector<FileHash> sources_of(const Configuration& c) {
-  Configuration asked_of_all = c;
-  asked_of_all.excluded.clear(), asked_of_all.tolerance = {};  // other questions, no other drive
-  if (c.recording) asked_of_all.recording->simulated.clear();
-  std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(asked_of_all))}};
-  for (const std::string& path : source_paths(asked_of_all)) {
+  const Configuration both = asked_of_both(c);
+  std::vector<FileHash> sources = {{"configuration", sha256(resolved_yaml(both))}};
+  for (const std::string& path : source_paths(both)) {
     if (path == c.file) continue;
     const std::string name = std::filesystem::path(path).filename().string();
     std::error_code unreachable;  // what is held out need not be there for an estimate

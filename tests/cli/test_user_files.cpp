@@ -250,6 +250,11 @@ TEST_F(UserFiles, AReportIsOfOneDrive) {
   ASSERT_EQ(place_.run("diagnose d.yaml -o both" + most).status, 0);
   ASSERT_EQ(place_.run("detect d.yaml -o both").status, 0);
   EXPECT_TRUE(fs::exists(at("both/diagnosis.json"))) << "of the same files";
+  for (const char* asked : {"detector.bound=40", "detector.method=lost_motion", "diagnosis.detectable=true",
+                            "tolerance.gap=1e-3"}) {
+    ASSERT_EQ(place_.run("detect d.yaml -o both --set " + std::string(asked)).status, 0) << asked;
+    EXPECT_TRUE(fs::exists(at("both/diagnosis.json"))) << "has nothing to do with " << asked;
+  }
   place_.file("d.yaml", text_of(at("d.yaml")) + "encoder: {bits: 18}\n");
   const Outcome detected = place_.run("detect d.yaml -o both");
   EXPECT_THAT(detected.err,

@@ -55,9 +55,9 @@ LoadedRecordings load_recordings(const Configuration& configuration, UnevenRows 
 /// The recordings of `held_out:`, read as a diagnosis takes them; empty where there are none.
 LoadedRecordings load_held_out(const Configuration& configuration, const Progress& progress);
 
-/// What a result will be made from, each with its SHA-256: the configuration as resolved (but for effects
-/// that the diagnosis leaves out), the recordings that it names, those held out, the input that a simulation
-/// plays again.
+/// What a result will be made from, each with its SHA-256: of the resolved configuration what an estimate and
+/// a diagnosis both rest on, the recordings that it names, those held out, the input that a simulation plays
+/// again.
 std::vector<FileHash> sources_of(const Configuration& configuration);
 
 /// The paths of the configuration itself and of these files.
