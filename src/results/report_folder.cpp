@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/input_file.h"
 #include "gapscope/base/move_file.h"
 #include "gapscope/base/version.h"
 #include "gapscope/results/sha256.h"
@@ -169,9 +170,10 @@ void ReportFolder::leave() {
 void ReportFolder::take_over(const std::string& file) {
   const fs::path from = fs::path(final_) / file, to = fs::path(partial_) / file;
   std::error_code error;
+  require_input_file(from.string(), "a file of the report as gapscope wrote it");
   fs::create_directories(to.parent_path(), error);
   if (!error) fs::copy_file(from, to, error);
-  if (error) fail(final_, "cannot be written in: " + error.message());
+  if (error) fail(from, "cannot be copied within the folder: " + error.message());
   kept_.insert(file);
 }
 
