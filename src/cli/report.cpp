@@ -61,7 +61,12 @@ void redraw(const std::string& folder, const FigureFormats& formats) {
       *std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.is_in(folder); });
   kind.read(folder);  // so that what is wrong is told with its place in the folder that the user knows
   ReportFolder fresh = ReportFolder::to_redraw(folder, kind.kind);
-  kind.draw(fresh.path(), fresh.dropped(), formats);
+  std::string note = fresh.dropped();
+  if (!fresh.changed().empty()) {
+    print_warnings({fresh.changed()});
+    note += (note.empty() ? "" : " ") + fresh.changed();
+  }
+  kind.draw(fresh.path(), note, formats);
   fresh.commit();
 }
 

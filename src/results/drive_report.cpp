@@ -56,7 +56,7 @@ void doubt_outside(const std::string& name, double value, const Interval& ci95, 
 void add_doubts(const std::string& folder, DriveReport& report) {
   constexpr const char* kResult = "result.json";
   const auto list = internal::results::read_file_list(folder);
-  if (list && list->holds(kResult) && !list->wrote(folder, kResult))
+  if (list && !list->wrote(folder, kResult))
     report.doubts.emplace_back(
         "result.json was changed since gapscope wrote it (files.json has its SHA-256)");
   if (report.model_free) {

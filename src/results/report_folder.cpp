@@ -66,9 +66,14 @@ ReportFolder::ReportFolder(const std::string& folder, FolderKind kind, const std
 
 ReportFolder ReportFolder::to_redraw(const std::string& folder, FolderKind kind) {
   ReportFolder redrawn(folder, kind, {}, true);
-  for (const std::string& file : internal::results::files_below(redrawn.final_))
-    if (internal::results::is_stored(file)) redrawn.take_over(file);
-  if (redrawn.before_) redrawn.dropped_ = redrawn.before_->dropped;
+  const FileList* list = redrawn.before_.get();
+  for (const std::string& file : internal::results::files_below(redrawn.final_)) {
+    if (!internal::results::is_stored(file)) continue;
+    if (list != nullptr && redrawn.changed_.empty() && !list->wrote(redrawn.final_, file))
+      redrawn.changed_ = file + " was changed since gapscope wrote it: the report is of what it says now.";
+    redrawn.take_over(file);
+  }
+  if (list != nullptr) redrawn.dropped_ = list->dropped;
   return redrawn;
 }
 

@@ -116,6 +116,36 @@ TEST_F(UserFiles, WhatTheUserChangedIsHis) {
   expect_refused("report r", "r: holds 'report.md', which was changed since gapscope wrote it");
 }
 
+TEST_F(UserFiles, AResultThatTheUserChangedIsDrawnAndSaidSo) {
+  EXPECT_EQ(place_.run("report r").err, "");
+  place_.file("r/result.json", text_of(at("r/result.json")) + "\n");
+  const std::string said =
+      "result.json was changed since gapscope wrote it: the report is of what it says now.";
+  for (const char* again : {"once", "once more"}) {
+    const Outcome drawn = place_.run("report r");
+    EXPECT_EQ(drawn.status, 0) << again;
+    EXPECT_THAT(drawn.err, HasSubstr(said)) << again;
+    EXPECT_THAT(text_of(at("r/report.md")), HasSubstr("> " + said)) << again;
+  }
+  EXPECT_THAT(place_.run("compare r r").err, HasSubstr("r: result.json was changed since gapscope wrote it"));
+}
+
+TEST_F(UserFiles, APipeAmongTheTracesIsNamed) {
+  ASSERT_EQ(mkfifo(at("r/traces/2_pipe.csv").c_str(), 0600), 0);
+  const Outcome refused = place_.run("report r");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("r/traces/2_pipe.csv: is no regular file, expected a file of the report"));
+}
+
+TEST_F(UserFiles, ANameThatATerminalWouldObeyIsShownHarmlessly) {
+  const std::string named =
+      "a\x1b[31mb\xc2\x9b"
+      "c.csv";
+  fs::copy_file(at("drive.csv"), at(named));
+  EXPECT_THAT(place_.run("check '" + named + "'").out, HasSubstr("a?[31mb?c.csv\n"));
+}
+
 TEST_F(UserFiles, AReportIsNotPutInPlaceOfItsInput) {
   ASSERT_EQ(place_.run("fit c.yaml -o fitted").status, 0);
   expect_refused("run fitted/fitted.yaml -o fitted", "fitted/fitted.yaml: is read, and would be replaced");

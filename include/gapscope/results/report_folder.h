@@ -43,7 +43,7 @@ class ReportFolder {
   ReportFolder(const std::string& folder, FolderKind kind, const std::vector<std::string>& inputs = {});
 
   /// For drawing again what is stored there: only the text and the figures are replaced. All that is stored
-  /// is taken over.
+  /// is taken over; what of it is not as gapscope wrote it, changed() says.
   static ReportFolder to_redraw(const std::string& folder, FolderKind kind);
 
   ~ReportFolder();
@@ -68,6 +68,10 @@ class ReportFolder {
 
   /// A sentence on what was not taken over; empty where nothing was there, or all goes together.
   const std::string& dropped() const { return dropped_; }
+
+  /// A sentence on the first file that is drawn again though it was changed; empty where there is none, or
+  /// where no files.json is to tell.
+  const std::string& changed() const { return changed_; }
 
   /// Leaves the folder, empty if it was new, to what else is written there: nothing is committed.
   void leave();
@@ -95,7 +99,7 @@ class ReportFolder {
 
   FolderKind kind_;
   bool redraw_;
-  std::string final_, partial_, dropped_;
+  std::string final_, partial_, dropped_, changed_;
   std::string list_hash_;          ///< of files.json as it was found; empty: there was none
   std::vector<std::string> made_;  ///< folders, the outermost first
   std::set<std::string> kept_;     ///< files that stay as they are
