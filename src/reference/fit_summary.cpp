@@ -28,7 +28,9 @@ constexpr double kBeyondChance = 2.5;  ///< standard errors
 constexpr double kLeastToldRows = 0.1;
 /// Spread of when u may act within its row: from at its beginning to a line between rows, which is half a row
 /// early; every second row is a quarter early. It matters where the recordings leave the timing open by more:
-/// there the share of it in an interval goes with it. Set by these causes, not by counting.
+/// there the share of it in an interval goes with it. Set by these causes, not by counting; half and double
+/// make the gap's interval of `study_rows 3001 3003 FOLDER run` up to 32 % narrower and 63 % wider in one of
+/// three drives, as recorded and every second row, change the two others by 3 % at most, and neither misses.
 constexpr double kWithinRow = 0.25;
 
 std::string number(double v) { return std::isnan(v) ? "-" : fmt::format("{:.6g}", v); }
