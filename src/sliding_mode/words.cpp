@@ -80,9 +80,12 @@ Remark load_pushed() {
       "back) drives it through the gap, too; take that force away, or turn round where it is small"};
 }
 Remark contact_tears() {
-  return {"contact_tears",
-          "the contact holds under pull until it tears, and drags the load along until then; look for grease "
-          "that sticks, or let the load rest longer at its reversals"};
+  return {
+      "contact_tears",
+      "the jolts at the ends of the passages throw x1 on along its way, where a contact would hold it back; "
+      "look for a contact that sticks until it tears (grease), or for a controller that steps at each "
+      "reversal "
+      "(backlash compensation)"};
 }
 Remark more_periods() { return {"more_periods", "record more periods"}; }
 Remark few_passages_each_way(long plus, long minus, const Remark& advice) {
