@@ -178,7 +178,7 @@ void ReportFolder::take_over(const std::string& file) {
   require_input_file(from.string(), "a file of the report as gapscope wrote it");
   fs::create_directories(to.parent_path(), error);
   if (!error) fs::copy_file(from, to, error);
-  if (error) fail(from, "cannot be copied within the folder: " + error.message());
+  if (error) fail(final_, "cannot be written in: " + error.message());
   kept_.insert(file);
 }
 
