@@ -6,6 +6,7 @@
 #include "gapscope/base/require.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/plant/effect_hooks.h"
+#include "gapscope/plant/rival_laws.h"
 
 namespace gapscope {
 
@@ -13,6 +14,7 @@ namespace internal::plant {
 #define GAPSCOPE_EFFECT(identifier) extern const EffectEntry effect_##identifier;
 #include "plant/effects/effects.inc"
 #include "plant/effects/last_resort.inc"
+#include "plant/effects/rival_laws.inc"
 #undef GAPSCOPE_EFFECT
 }  // namespace internal::plant
 
@@ -29,6 +31,15 @@ std::span<const EffectEntry* const> last_resort_table() {
   static constexpr const EffectEntry* kTable[] = {
 #define GAPSCOPE_EFFECT(identifier) &internal::plant::effect_##identifier,
 #include "plant/effects/last_resort.inc"
+#undef GAPSCOPE_EFFECT
+  };
+  return kTable;
+}
+
+std::span<const EffectEntry* const> rival_law_table() {
+  static constexpr const EffectEntry* kTable[] = {
+#define GAPSCOPE_EFFECT(identifier) &internal::plant::effect_##identifier,
+#include "plant/effects/rival_laws.inc"
 #undef GAPSCOPE_EFFECT
   };
   return kTable;

@@ -18,13 +18,13 @@ T StepperImpl<T>::dying_torque() const {
   return decay_share * e.hooks->decay(point(z, now, effect), e.parameters).amplitude;
 }
 
-/// What the contact's torque is beyond k p + c ṗ at a penetration p.
+/// What the contact's torque is beyond k p + c ṗ at a penetration p that grows with a speed.
 template <class T>
-T StepperImpl<T>::beyond_spring(const T& penetration) const {
+T StepperImpl<T>::beyond_spring(const T& penetration, const T& speed) const {
   T sum(0.0);
   if (!f.hardens) return sum;
   for (const ActiveEffect<T>& e : model.effects)
-    if (e.hooks->contact != nullptr) sum += e.hooks->contact(penetration, model, e.parameters);
+    if (e.hooks->contact != nullptr) sum += e.hooks->contact(penetration, speed, model, e.parameters);
   return sum;
 }
 
@@ -55,7 +55,8 @@ Extra<T> StepperImpl<T>::extra_at(const DriveState<T>& state, const T& time) con
   }
   const int side = mode.contact != 0 ? mode.contact : mode.outside;
   if (f.hardens && side != 0)
-    sum.contact = beyond_spring(state.x1 - state.x2 - static_cast<double>(side) * (half_gap + sum.half_gap));
+    sum.contact = beyond_spring(state.x1 - state.x2 - static_cast<double>(side) * (half_gap + sum.half_gap),
+                                state.w1 - state.w2);
   if (has_load) return sum;
   sum.motor += sum.load;
   if (model.gears_rub && mode.motor != 0) sum.motor -= rubbed_off(state, time, sum.motor - sum.load);

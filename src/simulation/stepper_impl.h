@@ -109,7 +109,7 @@ struct StepperImpl {
   // --- effects: stepper_effects.h
   EffectPoint<T> point(const DriveState<T>& state, const T& time, std::size_t effect) const;
   T dying_torque() const;
-  T beyond_spring(const T& penetration) const;
+  T beyond_spring(const T& penetration, const T& speed) const;
   T rubbed_off(const DriveState<T>& state, const T& time, const T& extra) const;
   Extra<T> extra_at(const DriveState<T>& state, const T& time) const;
   Forcing<T> forcing_without_effects() const;

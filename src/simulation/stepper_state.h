@@ -132,7 +132,8 @@ T StepperImpl<T>::contact_torque(int side) const {
   const Forcing<T> on = forcing_now();
   if (!f.rigid) {
     const T penetration = z.x1 - z.x2 - static_cast<double>(side) * on.half_gap[0];
-    return f.k * penetration + f.c * (z.w1 - z.w2) + beyond_spring(penetration);
+    const T speed = z.w1 - z.w2;
+    return f.k * penetration + f.c * speed + beyond_spring(penetration, speed);
   }
   if (mode.load == 0 || mode.motor == 0) return motor_coefficient(on, 0);
   const T motor = motor_coefficient(on, 0) - (mode.motor < 0 ? f.d1_minus : f.d1_plus) * z.w1;

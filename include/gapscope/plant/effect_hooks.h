@@ -47,9 +47,10 @@ struct EffectHooks {
   DriveTorque<T> (*torque)(const EffectPoint<T>& at, const T* p) = nullptr;
   /// Extra torque that is followed exactly; at most one effect of a drive may have one.
   DecayingTorque<T> (*decay)(const EffectPoint<T>& at, const T* p) = nullptr;
-  /// Torque of the closed compliant contact beyond k p + c ṗ, an odd smooth function of the penetration
-  /// p = δ − sβ [N m]. Its `rate` is asked for only where there is a contact torque.
-  T (*contact)(const T& penetration, const PlantModel<T>& plant, const T* p) = nullptr;
+  /// Torque of the closed compliant contact beyond k p + c ṗ, a smooth function of the penetration
+  /// p = δ − sβ and of its rate ṗ = δ̇ that is odd in both [N m]. Its `rate` is asked for only where there is
+  /// a contact torque.
+  T (*contact)(const T& penetration, const T& speed, const PlantModel<T>& plant, const T* p) = nullptr;
   /// Added to the half gap β [rad].
   T (*half_gap)(const EffectPoint<T>& at, const T* p) = nullptr;
   /// Load inertia over its nominal value [-].

@@ -23,7 +23,7 @@ struct ContactHardening {
   static constexpr EffectStart starts[] = {{1.0, 0.5}, {5.0, 1.0}};
 
   template <class T>
-  static T contact(const T& penetration, const PlantModel<T>& plant, const T* p) {
+  static T contact(const T& penetration, const T&, const PlantModel<T>& plant, const T* p) {
     const T depth = penetration / p[1], square = depth * depth;
     return plant.drive.contact_stiffness * p[0] * penetration * (square / (1.0 + square));
   }
