@@ -9,6 +9,7 @@
 #include "reference/profile.h"
 #include "reference/residual_tests.h"
 #include "reference/search.h"
+#include "reference/structure.h"
 #include "reference/trust.h"
 #include "reference/words.h"
 
@@ -128,11 +129,14 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
   if (!found.best().usable()) {
     report_failure(problem, summary);
   } else {
-    const FitOutcome outcome = outcome_of(problem, found);
+    FitOutcome outcome = outcome_of(problem, found);
+    try_rival_laws(problem, outcome);
+    find_pressed(problem, outcome);
     summary.status = outcome.solution.converged ? FitStatus::kConverged : FitStatus::kNotConverged;
     summary.message = outcome.solution.converged ? Remark() : words::iterations_ran_out();
     summary.warnings = outcome.warnings;
     simulations += outcome.simulations + report_parameters(problem, outcome, summary);
+    tell_structure(problem, outcome, summary);
     report_motion(problem, outcome, summary);
     simulations += kSimulationsPerTrace * static_cast<double>(summary.traces.size());
     const TrustFacts facts = trust_facts(problem, found);

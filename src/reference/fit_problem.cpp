@@ -247,6 +247,29 @@ double FitProblem::stiffness(const ModelNumbers<double>& n) const {
   return rate + std::sqrt(n.drive(kContactStiffness) * inverse) + n.drive(kContactDamping) * inverse;
 }
 
+FitProblem with_law(const FitProblem& problem, const EffectEntry& law, std::span<const double> begins,
+                    FitPoint& from) {
+  FitProblem more = problem;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    more.parameters[static_cast<std::size_t>(problem.free[i])].start =
+        problem.free_parameter(i).coordinate.physical(from.q[i]);
+  const ScaleContext context = scales(more, {});
+  const int place = static_cast<int>(more.effects.size());
+  more.effects.push_back(&law);
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    const EffectParameterSpec& spec = law.parameters[i];
+    ParameterSetting setting;
+    setting.estimate = !std::isnan(begins[i]);
+    setting.value = (setting.estimate ? begins[i] : spec.absent) * scale_value(spec.scale, context);
+    more.parameters.push_back(parameter_of_effect({place, static_cast<int>(i)}, law, setting, context));
+    const Parameter& p = more.parameters.back();
+    if (!p.estimated) continue;
+    more.free.push_back(static_cast<int>(more.parameters.size()) - 1);
+    from.q.push_back(p.coordinate.solver(p.start));
+  }
+  return more;
+}
+
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& given,
                         const FitOptions& options) {
   GAPSCOPE_REQUIRE(!recordings.empty());

@@ -162,6 +162,12 @@ struct FitProblem {
   }
 };
 
+/// The same problem where the model has one more law, from a point on that it has without it: where that
+/// point's numbers stand, those of the law at the values that are given, NaN: held at their neutral ones.
+/// @param from  in the numbers of `problem`; on return in those of the new one
+FitProblem with_law(const FitProblem& problem, const EffectEntry& law, std::span<const double> begins,
+                    FitPoint& from);
+
 /// Reads the settings and the recordings. @throws std::logic_error, see fit().
 FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                         const FitOptions& options);

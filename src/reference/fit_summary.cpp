@@ -75,6 +75,13 @@ const FittedParameter* FitSummary::find(const std::string& key) const {
   return nullptr;
 }
 
+std::vector<std::string> FitSummary::at_bound() const {
+  std::vector<std::string> keys;
+  for (const FittedParameter& p : parameters)
+    if (p.estimated && p.at_bound) keys.push_back(p.key);
+  return keys;
+}
+
 bool FitSummary::closes_gap() const {
   const FittedParameter* gap = find("gap");
   const bool at_none = gap != nullptr && gap->estimated && gap->at_bound && gap->low == 0.0;

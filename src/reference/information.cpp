@@ -281,7 +281,9 @@ Information information_at(const FitProblem& problem, const FitPoint& at, double
   const bool timed = add_delay(problem, at, observer_hz, parts, information.simulations);
   add_up(problem, parts, timed ? n + 1 : n, information);
   for (Eigen::Index i = 0; i < n; ++i) information.normal(i, i) += cost.beside_curvature(i, x[i]);
-  if (timed) take_timing(score_of(cost, x, parts), information);
+  const Eigen::VectorXd score = score_of(cost, x, parts);
+  if (timed) take_timing(score, information);
+  information.score = score.head(n);
   information.correlation = correlation_of(problem, parts);
   information.valid = information.normal.allFinite();
   return information;

@@ -21,6 +21,7 @@ struct Correlation {
 struct Information {
   bool valid = false;       ///< false: the motion diverged there
   Eigen::MatrixXd normal;   ///< JᵀJ with the priors (n × n)
+  Eigen::VectorXd score;    ///< Jᵀr with the priors: half of the slope of the cost (n)
   Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Jᵀr of the window (n × n)
   Eigen::MatrixXd
       quantiser;  ///< score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n)

@@ -8,6 +8,8 @@
 
 namespace gapscope::internal::reference {
 
+constexpr double kBeyondChance = 9.0;  ///< χ² of one number, three standard errors
+
 /// How far the free parameters move when they are fitted in another way.
 struct ValueChange {
   Remark where;                  ///< "at 10 Hz instead of 30 Hz", "between ..."
@@ -16,13 +18,25 @@ struct ValueChange {
   bool parts = false;            ///< between parts of the recordings
 };
 
+/// What another law of contact or friction, or another start, makes of the recordings.
+struct RivalFit {
+  std::string law;                ///< in words
+  double gap = kNaN;              ///< [rad]
+  double advantage = -kInfinity;  ///< fall of the cost against the fit's own, in what chance alone gains
+
+  bool explains() const { return advantage > -1.0; }
+  bool explains_better() const { return advantage > 1.0; }
+};
+
 /// The values that are reported, and how they were had.
 struct FitOutcome {
   Solution solution;
   double objective_hz = 0.0;  ///< poles of the observer; 0: the free run
   Information information;
   std::vector<ValueChange> changes;
-  std::vector<double> spread;  ///< of the free parameters over minima that are nearly as good; may be empty
+  std::vector<double> spread;    ///< of the free parameters over minima that are nearly as good; may be empty
+  std::vector<RivalFit> rivals;  ///< other laws, refitted from the solution
+  std::vector<std::string> pressed;  ///< keys of the numbers that a bound keeps from a better fit
   std::vector<Remark> warnings;
   double simulations = 0.0;
 

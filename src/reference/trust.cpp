@@ -17,7 +17,6 @@ constexpr Effort kClosed{1e-4, 0.5};      ///< of the search with the gap closed
 constexpr std::size_t kClosedStarts = 2;  ///< ends of the search that it begins at
 constexpr double kUnexplained = 0.3;      ///< see unexplained_share()
 constexpr double kTakesMost = 2.0;  ///< ratio of errors: closed, the gap takes three quarters of the square
-constexpr double kBeyondChance = 9.0;  ///< χ² of one number, three standard errors
 
 /// Squared prediction errors of an observer whose motor coasts between samples, and their number.
 void add_coasting(const MotorTrace& r, double hz, double& sum, double& count) {
@@ -183,13 +182,27 @@ std::optional<Remark> mistimed(const FitOutcome& o, const FitSummary&) {
   return words::input_mistimed(o.information.timing);
 }
 
+std::optional<Remark> pressed_by_bound(const FitOutcome& o, const FitSummary&) {
+  if (o.pressed.empty()) return {};
+  return words::pressed_by_bound(o.pressed);
+}
+
+std::optional<Remark> other_law(const FitOutcome& o, const FitSummary&) {
+  const auto best =
+      std::max_element(o.rivals.begin(), o.rivals.end(),
+                       [](const RivalFit& a, const RivalFit& b) { return a.advantage < b.advantage; });
+  if (best == o.rivals.end() || !best->explains_better()) return {};
+  return words::other_law(best->law);
+}
+
 constexpr std::pair<FitTrust, Judge> kJudges[] = {
     {FitTrust::kRejected, unexplained},   {FitTrust::kRejected, other_gap},
     {FitTrust::kRejected, no_gap_needed}, {FitTrust::kRejected, little_of_a_gap},
     {FitTrust::kRejected, odd_coupling},  {FitTrust::kLimited, unfinished},
     {FitTrust::kLimited, gap_open},       {FitTrust::kLimited, mistimed},
     {FitTrust::kLimited, above_floor},    {FitTrust::kLimited, moving},
-    {FitTrust::kLimited, patterned}};
+    {FitTrust::kLimited, patterned},      {FitTrust::kLimited, pressed_by_bound},
+    {FitTrust::kLimited, other_law}};
 
 /// A model that is usable is not one that does not explain its recordings, however far the encoder's floor.
 /// Of one that is rejected the warning tells the error that the reason tells.

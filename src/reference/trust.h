@@ -29,7 +29,8 @@ double unexplained_share(const FitSummary& fit);
 ///   limited   iterations ran out; a gap at its bound or not determined; an input that acts elsewhere than at
 ///   its
 ///             row; a free run above the encoder's floor, or within it and not random; values that move by
-///             more than their intervals between parts or gains
+///             more than their intervals between parts or gains; a number that its bound keeps from a better
+///             fit; another law of contact or friction that explains more
 ///   good      the rest
 void judge_trust(const FitProblem& problem, const FitOutcome& outcome, const TrustFacts& facts,
                  FitSummary& summary);

@@ -215,6 +215,17 @@ Remark residual_patterned() {
   return {"residual_patterned",
           "The residual is within the encoder's size but not random: something small is missing."};
 }
+Remark pressed_by_bound(const std::vector<std::string>& keys) {
+  return {"at_bound",
+          "{} ended at a bound: the optimum lies beyond it, or the model lacks something.",
+          {listed(keys)}};
+}
+Remark other_law(const std::string& law) {
+  return {
+      "other_law",
+      "A {} explains the recording better than the model does: the gap depends on the law that is fitted.",
+      {law}};
+}
 
 Remark input_mistimed(const InputTiming& timing) {
   const Doubt doubt = mistimed(timing);

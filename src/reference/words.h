@@ -54,6 +54,8 @@ Remark gap_not_determined();
 Remark parts_disagree();
 Remark above_floor(double fit_percent, double floors, double unexplained_percent);
 Remark residual_patterned();
+Remark pressed_by_bound(const std::vector<std::string>& keys);
+Remark other_law(const std::string& law);
 Remark input_mistimed(const InputTiming& timing);
 
 // What speaks against any number that is fitted.

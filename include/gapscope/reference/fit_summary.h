@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,12 @@ struct InputTiming {
   double open_rows() const;
 };
 
+/// What laws of contact and friction that explain the recordings as well as the model's own make of the gap.
+struct FitStructure {
+  std::vector<std::string> laws;           ///< in words, that of the model first
+  double gap_low = kNaN, gap_high = kNaN;  ///< smallest and largest gap by them [rad]
+};
+
 /// What the model-based reference says. A default-built one says that it was not run.
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
@@ -108,6 +115,7 @@ struct FitSummary {
   ResidualTest whiteness;                   ///< of the residual with itself
   ResidualTest input_correlation;           ///< of the residual with the input
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
+  std::optional<FitStructure> structure;    ///< nothing where no other law was tried
   std::vector<FittedStart> initial_states;  ///< one per recording
   std::vector<FitTrace> traces;
   std::vector<ModeError> mode_errors;
@@ -122,6 +130,7 @@ struct FitSummary {
   Interval shown_interval(const FittedParameter& p) const {
     return rejected() || status == FitStatus::kNotConverged ? Interval{} : p.ci95;
   }
+  std::vector<std::string> at_bound() const;  ///< keys of the estimated numbers that stand at a bound
   /// The fit leaves nothing of the gap, and the recordings are explained as well: the model says that there
   /// is none.
   bool closes_gap() const;
