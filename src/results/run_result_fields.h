@@ -167,6 +167,13 @@ void fields(Archive& archive, ResidualTest& t) {
 }
 
 template <class Archive>
+void fields(Archive& archive, FitStructure& s) {
+  archive("laws", s.laws);
+  archive("gap_low_rad", s.gap_low);
+  archive("gap_high_rad", s.gap_high);
+}
+
+template <class Archive>
 void fields(Archive& archive, FitSummary& f) {
   bool converged = f.converged();  // follows from the status, kept for readers of the file
   archive("converged", converged);
@@ -185,6 +192,9 @@ void fields(Archive& archive, FitSummary& f) {
   archive.addition("why", f.why);
   archive.addition("fit_percent", f.fit_percent);
   archive.named("parameters", f.parameters, &FittedParameter::key);
+  std::vector<std::string> at_bound = f.at_bound();  // follows from the parameters
+  archive.seldom("at_bound", at_bound);
+  archive.seldom("structure", f.structure);
   archive("floor_rad", f.floor);
   archive("innovation_rmse_rad", f.innovation_rmse);
   archive.addition("coasting_rmse_rad", f.coasting_rmse);
