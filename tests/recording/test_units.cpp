@@ -33,7 +33,8 @@ TEST(Units, EachIsWhatItsNameSays) {
   EXPECT_EQ(si(Quantity::kAngle, "1.5e-3", 2.0), 0.003);
   for (const char* none : {"mm", "degree", "", "0", "-1", "inf", "nan", "1 rad", "Deg", "1e99"})
     EXPECT_FALSE(unit_scale(Quantity::kAngle, none)) << none;
-  EXPECT_THAT(known_units(Quantity::kTime), HasSubstr("ms, us, ns, 100ns, or a number (s per recorded unit)"));
+  EXPECT_THAT(known_units(Quantity::kTime),
+              HasSubstr("ms, us, ns, 100ns, or a number (s per recorded unit)"));
 }
 
 TEST(Units, OfATorqueAreTakenAsTheyAreCommonlyWritten) {
