@@ -28,11 +28,12 @@ FitSummary settled_fit() {
   return f;
 }
 
-std::string code_of(const FitOutcome& outcome, FitSummary f) {
+std::string code_of(FitOutcome outcome, FitSummary f) {
+  outcome.information.correlation.lag1 = 0.0;
   internal::reference::TrustFacts facts;
   facts.coasting_rmse = 1e4, facts.without_gap_ratio = 100.0;
   judge_trust({}, outcome, facts, f);
-  EXPECT_EQ(f.trust == FitTrust::kGood, outcome.pressed.empty() && f.why.code() == "at_the_floor");
+  EXPECT_EQ(f.trust == FitTrust::kGood, f.why.code() == "at_the_floor");
   return f.why.code();
 }
 
@@ -69,7 +70,8 @@ TEST(Structure, AHuntCrossleyContactReplacesSpringAndDamper) {
     for (const double speed : {-1.0, 0.5}) {
       const double q = std::abs(p) / length;
       const double torque = k * p + c * speed + hooks_of<double>(law).contact(p, speed, plant, &length);
-      EXPECT_NEAR(torque, k * p * std::sqrt(q) + c * speed * std::pow(q, 1.5), 1e-5 * (k * std::abs(p) + c));
+      const double damper = 0.05 + 0.95 * std::pow(q, 1.5);  // a twentieth stays linear
+      EXPECT_NEAR(torque, k * p * std::sqrt(q) + c * damper * speed, 1e-5 * (k * std::abs(p) + c));
     }
 }
 
