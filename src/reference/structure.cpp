@@ -141,8 +141,6 @@ void tell_structure(const FitProblem& problem, const FitOutcome& outcome, FitSum
     i->low -= gap->value - s.gap_low, i->high += s.gap_high - gap->value;
     i->low = std::max(i->low, gap->low), i->high = std::min(i->high, gap->high);
   }
-  const double half = std::max(gap->ci95.high - gap->value, gap->value - gap->ci95.low);
-  if (gap->std > 0.0 && half > 0.0) gap->std = std::max(gap->std, half / kNormal95);
   summary.structure = s;
 }
 
