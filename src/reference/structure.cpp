@@ -14,6 +14,9 @@ constexpr RefineEffort kNear{2, 8, 1e-3};    ///< from afar under the observer, 
 constexpr RefineEffort kAfar{5, 16, 1e-4};   ///< of the free run from there
 constexpr RefineEffort kBeside{2, 8, 1e-4};  ///< of the free run where the optimum is near
 
+/// No further law is tried once fit and laws have taken so many times what the fit took.
+constexpr double kMostWork = 2.0;
+
 /// A law, and where the search for its numbers begins, in units of their scales; NaN: held.
 struct Rival {
   std::string_view effect, words;
@@ -100,9 +103,10 @@ bool falls_from_within(const FitProblem& problem, std::size_t i, FitOutcome& out
 
 void try_rival_laws(const FitProblem& problem, FitOutcome& outcome) {
   if (outcome.objective_hz != 0.0 || !problem.structure.has_load || !outcome.solution.converged) return;
+  const double most = kMostWork * outcome.simulations;
   for (const Rival& rival : kRivals) {
     const EffectEntry& law = law_of(rival);
-    if (!has_place(problem, law)) continue;
+    if (!has_place(problem, law) || outcome.simulations > most) continue;
     FitPoint from = outcome.solution;
     const FitProblem other = with_law(problem, law, rival.begins, from);
     scale(other, drive_number(place::kContactStiffness), rival.stiffness, from);
