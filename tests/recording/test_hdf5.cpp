@@ -66,7 +66,7 @@ TEST(Hdf5, RefusesAMalformedFileWithPlaceAndRemedy) {
     return [=](std::string& b) { std::memcpy(b.data() + numbers_of(b, 0.0, 0.001) + 24, &value, 8); };
   };
   const std::vector<testing::Malformed> cases = {
-      {"empty", [](auto& b) { b.clear(); }, {whole}},
+      {"empty", [](auto& b) { b.clear(); }, {"is empty, expected a recording as"}},
       {"text", [](auto& b) { b = "t,u,x1\n0,0,0\n"; }, {whole}},
       {"half", [](auto& b) { b.resize(b.size() / 2); }, {whole}},
       {"only a start", [](auto& b) { b.resize(96); }, {whole}},

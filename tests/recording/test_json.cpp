@@ -86,7 +86,7 @@ TEST(Json, RefusesAMalformedFileWithPlaceAndRemedy) {
   };
   const std::string broken = "r.json:1: is no whole JSON: byte ";
   const std::vector<testing::Malformed> cases = {
-      {"empty", [](auto& b) { b.clear(); }, {broken + "0 is nothing more there, expected {"}},
+      {"empty", [](auto& b) { b.clear(); }, {"is empty, expected a recording as"}},
       {"text", [](auto& b) { b = "t,u,x1\n0,0,0\n"; }, {broken + "0 is 't,u,x1"}},
       {"a number", [](auto& b) { b = "17"; }, {broken + "0 is '17' there"}},
       {"an open list", cut("],\n", 0), {"expected ,"}},

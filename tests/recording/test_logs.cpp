@@ -79,7 +79,7 @@ TEST(Mcap, RefusesAMalformedFileWithPlaceAndRemedy) {
   const std::string good = testing::text_of(written_file("joints.mcap"));
   const std::size_t first = record_of(good, kMessageRecord), channel = record_of(good, kChannelRecord);
   const std::vector<testing::Malformed> cases = {
-      {"empty", [](auto& b) { b.clear(); }, {"does not begin as an MCAP", "at byte 0"}},
+      {"empty", [](auto& b) { b.clear(); }, {"is empty, expected a recording as"}},
       {"text", [](auto& b) { b = "t,u,x1\n0,0,0\n"; }, {"does not begin as an MCAP"}},
       {"magic alone", [](auto& b) { b.resize(8); }, {place(8), "ends there", recover}},
       {"half", [](auto& b) { b.resize(b.size() / 2); }, {"damaged at byte", "are there", recover}},
@@ -194,7 +194,7 @@ TEST(Rosbag, RefusesAMalformedFileWithPlaceAndRemedy) {
   const std::string whole = "expected a whole bag of ROS 2 (sqlite3 FILE .recover)";
   const std::vector<testing::Malformed> cases = {
       {"text", [](auto& b) { b = std::string(2000, 'x'); }, {whole}},
-      {"empty", [](auto& b) { b.clear(); }, {"without the tables topics and messages"}},
+      {"empty", [](auto& b) { b.clear(); }, {"is empty, expected a recording as"}},
       {"half", [](auto& b) { b.resize(b.size() / 2); }, {whole}},
       {"another table",
        [](auto& b) { b.replace(b.find("tablemessages"), 13, "tablemassages"); },

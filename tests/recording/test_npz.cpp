@@ -81,7 +81,7 @@ void replace_in_x1(std::string& bytes, const std::string& from, const std::strin
 TEST(Npz, RefusesAMalformedFileWithPlaceAndRemedy) {
   const std::string again = "expected a whole .npz, as numpy.savez or savez_compressed writes it";
   const std::vector<testing::Malformed> cases = {
-      {"empty", [](auto& b) { b.clear(); }, {"no archive", again}},
+      {"empty", [](auto& b) { b.clear(); }, {"is empty, expected a recording as"}},
       {"text", [](auto& b) { b = "t,u,x1\n0,0,0\n"; }, {"it has no directory at its end", again}},
       {"half", [](auto& b) { b.resize(b.size() / 2); }, {"is cut off", again}},
       {"without its last byte", [](auto& b) { b.pop_back(); }, {"is cut off", again}},

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "gapscope/base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/passage/coasting.h"
 #include "sliding_mode/passage/flight.h"
@@ -239,7 +240,7 @@ bool thrown_off(const PassageContext& context, const BankEvent& before, const Ba
 
 GapEvent event_of(const Passage& p) {
   GapEvent event = p.event;
-  event.std = p.half_width;
+  event.std = p.half_width / kNormal95;
   if (!p.released()) event.t1 = event.x1_t1 = event.std = kNaN;  // where x1 turned tells no loss of contact
   event.accepted = p.refusal == Refusal::kNone;
   if (!event.accepted) event.remark = refusal_text(p.refusal);

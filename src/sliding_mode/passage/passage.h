@@ -19,7 +19,7 @@ struct Passage {
   GapEvent event;
   Refusal refusal = Refusal::kNone;
   double contrast = 0.0;    ///< abruptness over what the motion before it needs
-  double half_width = 0.0;  ///< systematic: where the release and the load's travel may lie [rad]
+  double half_width = 0.0;  ///< systematic, 95 %: where the release and the load's travel may lie [rad]
   double speed = 0.0;  ///< at which the gap closes: of the motor before the impact, less the load's [rad/s]
   double acceleration = 0.0;               ///< of the motor in the gap, just before the impact [rad/s²]
   double stiffness = 0.0;                  ///< of the contact, over the motor's inertia; 0: rigid [1/s²]
