@@ -10,7 +10,7 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr double kFinestTime = 0.05;  ///< samples
+constexpr double kFinestTime = 0.05, kFinestEdge = 1e-7;  ///< samples
 
 /// s and the second integrals of the three parts of the torque.
 Eigen::RowVector4d parts(double s) {
@@ -89,8 +89,20 @@ Onset OnsetScan::trial(double time) const {
   return onset;
 }
 
-Onset OnsetScan::best(double from, double to, double step) const {
-  return least_sse([&](double t) { return trial(t); }, from, to, step, kFinestTime);
+Onset OnsetScan::best(double from, double to, double step, double alike) const {
+  const Onset least = least_sse([&](double t) { return trial(t); }, from, to, step, kFinestTime);
+  const double limit = least.sse + alike;
+  const auto edge = [&](double way) {
+    double in = least.time, out = in + way;
+    while (out >= from && out <= to && trial(out).sse <= limit) in = out, out += way;
+    out = std::clamp(out, from, to);
+    while (std::abs(out - in) > kFinestEdge) {
+      const double middle = 0.5 * (in + out);
+      (trial(middle).sse <= limit ? in : out) = middle;
+    }
+    return in;
+  };
+  return trial(0.5 * (edge(-kFinestTime) + edge(kFinestTime)));
 }
 
 Interval OnsetScan::within(double from, double to, double step, double limit) const {

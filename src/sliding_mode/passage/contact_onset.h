@@ -24,6 +24,9 @@ struct Onset {
   std::ptrdiff_t count() const { return (numbers.array() > 0.0).count(); }  ///< of the numbers in use
 };
 
+/// In χ²: what no noise tells apart.
+inline constexpr double kAlike = 0.01;
+
 /// Rows first … first + y.size() − 1 of a passage, prepared for many trial instants: the law's columns are
 /// projected out once.
 class OnsetScan {
@@ -36,8 +39,9 @@ class OnsetScan {
             Start start);
 
   Onset trial(double time) const;
-  /// The best of [from, to], tried every `step` and finer around the best.
-  Onset best(double from, double to, double step) const;
+  /// The best of [from, to], tried every `step` and finer around the best: the middle of those whose squared
+  /// error is no more than `alike` [rad²] above the least, which rounding alone would choose among.
+  Onset best(double from, double to, double step, double alike) const;
   /// The earliest and the latest instant of [from, to] whose squared error is at most `limit`.
   Interval within(double from, double to, double step, double limit) const;
 

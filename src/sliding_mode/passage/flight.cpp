@@ -109,7 +109,8 @@ FreeFlight FlightLaw::find_release(std::size_t core) const {
                most = back(static_cast<double>(first)) - 1.0;
   if (!(most > least)) return flight;
   const double step = std::max(kStep * length / static_cast<double>(stride), 0.25);
-  const Onset push = pushed.best(least, most, step), pull = pulled.best(least, most, step);
+  const Onset push = pushed.best(least, most, step, kAlike * noise_ * noise_),
+              pull = pulled.best(least, most, step, kAlike * noise_ * noise_);
   const bool pulls = pull.sse < push.sse;
   const Onset& best = pulls ? pull : push;
   const double freedom = static_cast<double>(columns.rows() - columns.cols());

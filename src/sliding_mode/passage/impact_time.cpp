@@ -70,23 +70,23 @@ OnsetFit find_onset(const PassageContext& context, const Mark& mark, const Fligh
   const OnsetScan scan(y, first, law.direction(), columns, OnsetScan::Start::kImpact);
   const OnsetScan pulled(y, first, -law.direction(), columns, OnsetScan::Start::kImpact);
   const double end = static_cast<double>(last) - 1.0;
+  const double sigma2 = context.facts.noise * context.facts.noise, alike = kAlike * sigma2;
   const std::size_t most = (mark.start - first) / 2;
   std::size_t back = std::min(3 * mark.latency + mark.samples(5.0), most);
   double begin = 0.0, step = 0.0;
   for (;; back = std::min(2 * back, most)) {
     begin = static_cast<double>(mark.start - back), step = std::max(kCoarse, (end - begin) / kTrials);
-    fit.best = scan.best(begin, end, step);
+    fit.best = scan.best(begin, end, step, alike);
     if (fit.best.time > begin + step || back == most) break;  // a least error at the rim is none
   }
   fit.found = true;
-  fit.along = pulled.best(begin, end, step).sse < fit.best.sse;
+  fit.along = pulled.best(begin, end, step, alike).sse < fit.best.sse;
   Eigen::VectorXd known(static_cast<Eigen::Index>(y.size()));
   for (Eigen::Index i = 0; i < known.size(); ++i)
     known(i) = -law.direction() * fit.best(static_cast<double>(first) + static_cast<double>(i));
   fit.law = law.fit_without(first, known);
   const auto from =
       static_cast<std::size_t>(std::max(fit.best.time - kBeforeOnset, static_cast<double>(first)));
-  const double sigma2 = context.facts.noise * context.facts.noise;
   const double left = left_over(context.trace, law, fit, from, last);
   const double limit = fit.best.sse + kOnsetAsGood * std::max(sigma2, left) * mark.sharing;
   const Interval open = scan.within(begin, end, std::min(step, kFinestOnset), limit);

@@ -95,9 +95,10 @@ Flight flight_of(const PassageContext& context, const BankEvent& event, const Re
   const double way = std::max(kTurnWay * r.rise, context.facts.least_way());
   const double guess = turn_time(context.trace, r.first, r.last, way);
   const auto before = static_cast<std::size_t>(std::max(guess - kFewestBeforeTurn, 0.0));
-  const double turn = before + 3 * signals::MotionLaw::kFewestRows < from_rest.impact.core
-                          ? turn_by_law(context.trace, before, from_rest.impact.core, guess, r.direction)
-                          : guess;
+  const double turn =
+      before + 3 * signals::MotionLaw::kFewestRows < from_rest.impact.core
+          ? turn_by_law(context.trace, before, from_rest.impact.core, guess, r.direction, context.facts.noise)
+          : guess;
   Flight through = with(turn);
   FlightLaw::Fit law;
   const bool holds = through.impact.found && through.law->fit_before(through.impact.core, law) &&

@@ -53,7 +53,8 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
   return std::abs(turn - middle) <= stay ? turn : middle;
 }
 
-double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction) {
+double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
+                   double noise) {
   struct Trial {
     double turn, sse;
   };
@@ -64,7 +65,8 @@ double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, 
     const Eigen::VectorXd y = law.positions(from, last, stride);
     return Trial{turn, (A * signals::least_squares_of(A, y) - y).squaredNorm()};
   };
-  return least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt, 0.5 * kTurnDoubt, kFinestTurn).turn;
+  const Trial least = least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt, 0.5 * kTurnDoubt, kFinestTurn);
+  return trial(guess).sse - least.sse > noise * noise ? least.turn : guess;
 }
 
 std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {

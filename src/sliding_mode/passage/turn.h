@@ -22,7 +22,8 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
 /// The same by the law of a motor that is alone before and after it: the turn by which the law holds best.
 /// @param from, last  samples that it is fitted to   @param guess  known to a sample or two   @param
 /// direction of x1 behind it
-double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction);
+double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
+                   double noise);
 
 /// Index of the largest side·x1 in [first, last], the latest of equal ones.
 std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side);
