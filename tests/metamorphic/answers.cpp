@@ -22,10 +22,7 @@ class Collector {
   explicit Collector(const Scales& scales) : scales_(scales) { all_.time_scale = scales.time; }
 
   void checked(const Inspection& inspection) {
-    for (const Finding& f : inspection.findings) {  // of several recordings the worst of each rule
-      const auto told = all_.findings.emplace(f.rule, f.severity).first;
-      told->second = std::max(told->second, f.severity);
-    }
+    for (const Finding& f : inspection.findings) all_.findings[f.rule] = f.severity;
   }
 
   void word(const std::string& of, const std::string& word) { all_.words[of] = word; }

@@ -20,10 +20,15 @@ struct Expected {
   Holds holds = Holds::kEqual;
   double tolerance = 0.0;  ///< of numbers that are equal, relative
   double width = 0.0;      ///< of their intervals, in half widths
+  bool same_first = true;  ///< `check`, which looks at the first recording, looks at the same one
 };
 
 constexpr Expected equal(double tolerance = 1e-8, double width = 1e-3) {
   return {Holds::kEqual, tolerance, width};
+}
+/// The same of recordings in another order.
+constexpr Expected equal_but_first(double tolerance = 1e-8) {
+  return {Holds::kEqual, tolerance, 1e-3, false};
 }
 constexpr Expected kWithin{Holds::kWithin}, kTold{Holds::kTold}, kRefused{Holds::kRefused};
 
