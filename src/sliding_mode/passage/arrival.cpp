@@ -40,10 +40,16 @@ double held_back(const MotorTrace& trace, const Reversal& r, double drive, doubl
   return way;
 }
 
-/// Where x1 was last so far from its rest, before it; 0: never.
-std::size_t arriving(const MotorTrace& trace, const Reversal& r, double way) {
-  std::size_t i = r.first;
-  while (i > 0 && r.direction * (trace.x1[i] - r.position) < way) --i;
+/// Where x1 was last so far from its rest, before it, or turned round on its way there; 0: never.
+/// @param least  way back that shows a turn [rad]
+std::size_t arriving(const MotorTrace& trace, const Reversal& r, double way, double least) {
+  std::size_t i = r.first, farthest = i;
+  const auto off = [&](std::size_t k) { return std::abs(trace.x1[k] - r.position); };
+  while (i > 0 && off(i) < way) {
+    if (off(i) > off(farthest)) farthest = i;
+    if (off(i) < off(farthest) - least) return farthest;
+    --i;
+  }
   return i;
 }
 
@@ -67,7 +73,7 @@ signals::LawStretch flight_stretch(const RestBeforeFlight& p) {
 /// @param way  that is surely none of noise and counting [rad]
 bool rubs_to_rest(const MotorTrace& trace, const RestBeforeFlight& p, double way) {
   const signals::MotionLaw law(trace, {flight_stretch(p)}, signals::MotionLaw::Friction::kPassive);
-  const auto near = [&](std::size_t i) { return p.rest.direction * (trace.x1[i] - p.rest.position) <= way; };
+  const auto near = [&](std::size_t i) { return std::abs(trace.x1[i] - p.rest.position) <= way; };
   const auto held = [&](std::size_t i) { return std::abs(law.drive() * trace.u[i]) <= law.dry(); };
   std::size_t last = p.begin;
   while (last > p.rest.first && !(near(last) && held(last))) --last;
@@ -88,12 +94,13 @@ Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> pas
                   double least) {
   Arrivals a;
   for (const auto& p : passages) {
-    const std::size_t from = arriving(trace, p.rest, std::max(share * p.rest.rise, least));
+    const std::size_t from = arriving(trace, p.rest, std::max(share * p.rest.rise, least), least);
     if (p.rest.first < from + signals::MotionLaw::kFewestRows) {
       a.whole.push_back({p.begin, p.core});
       continue;
     }
-    a.stretches.push_back({from, p.rest.first, static_cast<double>(from), -p.rest.direction});
+    a.stretches.push_back(
+        {from, p.rest.first, static_cast<double>(from), trace.x1[from] < p.rest.position ? 1 : -1});
     a.whole.push_back({from, p.core});
     a.rows += static_cast<double>(p.rest.first - from) - 1.0;
     a.resting += static_cast<double>(p.begin) - static_cast<double>(p.rest.first);
@@ -129,8 +136,8 @@ bool can_be_alone(const MotorTrace& trace, const signals::SignalFacts& facts, co
 
 }  // namespace
 
-bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
-                    std::span<const RestBeforeFlight> passages) {
+RestingPlace resting_place(const MotorTrace& trace, const signals::SignalFacts& facts,
+                           std::span<const RestBeforeFlight> passages) {
   const double least = facts.least_way();
   const std::vector<RestBeforeFlight> some = spread(passages);
   std::vector<RestBeforeFlight> at_rest;
@@ -141,19 +148,23 @@ bool may_rest_alone(const MotorTrace& trace, const signals::SignalFacts& facts,
     if (rubs || rests(p)) at_rest.push_back(p);
     rubbing += rubs;
   }
-  if (2 * at_rest.size() < some.size() || at_rest.empty()) return false;
+  if (2 * at_rest.size() < some.size() || at_rest.empty()) return RestingPlace::kNowhere;
   std::vector<signals::LawStretch> flights;
   for (const auto& p : at_rest) flights.push_back(flight_stretch(p));
   const signals::MotionLaw alone(trace, flights, signals::MotionLaw::Friction::kPassive);
   std::vector<double> held;
   for (const auto& p : at_rest) held.push_back(held_back(trace, p.rest, alone.drive(), alone.dry()));
-  if (median(held) > least) return false;
-  return std::ranges::any_of(kArrivals, [&](double share) {
+  if (median(held) > least) return RestingPlace::kAtLoad;
+  RestingPlace place = RestingPlace::kUntold;
+  for (const double share : kArrivals) {
     const Arrivals a = arrivals(trace, at_rest, share, least);
-    if (!(a.rows > 0.0)) return false;
-    if (2 * rubbing < at_rest.size() && !follows(trace, facts, alone, flights, a)) return false;
-    return can_be_alone(trace, facts, alone, a);
-  });
+    if (!(a.rows > 0.0)) continue;
+    const bool lone = (2 * rubbing >= at_rest.size() || follows(trace, facts, alone, flights, a)) &&
+                      can_be_alone(trace, facts, alone, a);
+    if (lone) return RestingPlace::kAlone;
+    place = RestingPlace::kAtLoad;
+  }
+  return place;
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -174,6 +174,24 @@ void read_release(Passage& t, const PassageContext& context, const FlightLaw& la
   if (t.refusal == Refusal::kNone && along > kGoesAlong * t.event.gap) t.refusal = Refusal::kPushed;
 }
 
+/// Where x1 stays at t1: at its turn, or behind it, where the motor came to rest once more.
+Reversal stay_at(const PassageContext& context, const Reversal& turn, std::size_t t1) {
+  const auto& y = context.trace.x1;
+  const double tolerance = context.facts.quantum + 2.0 * context.facts.noise;
+  Reversal stay = turn;
+  const auto grow = [&](double place) {
+    const auto alike = [&](std::size_t i) { return std::abs(y[i] - place) <= tolerance; };
+    stay.first = stay.last = t1;
+    while (stay.first > 0 && alike(stay.first - 1)) --stay.first;
+    while (stay.last + 1 < y.size() && alike(stay.last + 1)) ++stay.last;
+    stay.position = median(std::vector<double>(y.begin() + stay.first, y.begin() + stay.last + 1));
+  };
+  grow(y[t1]);
+  grow(stay.position);  // of a single sample it is as far off as the noise
+  stay.rise = turn.rise + turn.direction * (turn.position - stay.position);
+  return stay;
+}
+
 /// The passage that began after sample `from`, but for how abrupt its end is.
 Passage read_between(const PassageContext& context, const BankEvent& impact, std::size_t from) {
   Passage t;
@@ -214,8 +232,11 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   if (t.refusal == Refusal::kNone && small) t.refusal = Refusal::kLoadMoving;  // unless its law is known
   if (t.refusal != Refusal::kNone) return t;
   const auto begin = static_cast<std::size_t>(std::max((t.t1_last - trace.start) / trace.dt, 0.0)) + 1;
-  const RestBeforeFlight passage{reversal, begin, time.core};
-  if (may_rest_alone(trace, context.facts, {&passage, 1})) t.refusal = Refusal::kRestsAlone;
+  const auto t1 = static_cast<std::size_t>(std::lround((t.event.t1 - trace.start) / trace.dt));
+  const RestBeforeFlight passage{stay_at(context, reversal, t1), begin, time.core};
+  const RestingPlace place = resting_place(trace, context.facts, {&passage, 1});
+  t.untold = place == RestingPlace::kUntold;
+  if (place == RestingPlace::kAlone) t.refusal = Refusal::kRestsAlone;
   return t;
 }
 

@@ -25,6 +25,7 @@ struct Passage {
   double stiffness = 0.0;                  ///< of the contact, over the motor's inertia; 0: rigid [1/s²]
   double load_travel = 0.0;                ///< assumed between t1 and t2 [rad]
   bool dwell = false;                      ///< the motor rested before it entered the gap
+  bool untold = false;                     ///< … and whether that was at its load is not to be seen
   bool by_law = false;                     ///< the load's travel is by the law of the engaged flank
   double t1_first = kNaN, t1_last = kNaN;  ///< between which contact was lost [s]
   double t2_half_width = 0.0;              ///< of half_width, by t2 alone [s]

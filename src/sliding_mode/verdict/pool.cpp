@@ -126,8 +126,8 @@ double recordings_disagreement(const std::vector<const Passage*>& passages) {
 
 /// Whether the motor rested at its load before most passages, or the law of the load is known.
 bool load_known(const Pool& pool) {
-  const auto known =
-      std::ranges::count_if(pool.accepted, [](const Passage* p) { return p->dwell || p->by_law; });
+  const auto known = std::ranges::count_if(
+      pool.accepted, [](const Passage* p) { return (p->dwell && !p->untold) || p->by_law; });
   return 2 * known >= std::ssize(pool.accepted);
 }
 

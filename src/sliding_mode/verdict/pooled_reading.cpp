@@ -253,7 +253,7 @@ std::optional<GapEvidence> read_one(const MotorTrace& trace, const signals::Sign
   const PooledRecording s{trace, facts, torque_turns(trace)};
   const auto c = agreed(s);
   if (!c || c->beyond > kMostBeyond * c->gap || c->slid > kMostSlid * c->gap) return {};
-  if (may_rest_alone(trace, facts, rests_of(s, *c))) return {};
+  if (resting_place(trace, facts, rests_of(s, *c)) == RestingPlace::kAlone) return {};
   const double up = one_way(s, *c, 1).gap, down = one_way(s, *c, -1).gap;
   if (std::isnan(up) || std::isnan(down)) return {};
   GapEvidence e;
