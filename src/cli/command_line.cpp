@@ -87,6 +87,10 @@ std::string option_words(const CLI::Option& option) {
 
 Option& Option::required(bool yes) { return option_->required(yes), *this; }
 Option& Option::value(const char* name) { return option_->type_name(name), *this; }
+Option& Option::values(int fewest) {
+  option_->expected(fewest, CLI::detail::expected_max_vector_size);
+  return *this;
+}
 Option& Option::values(int fewest, int most) {
   option_->expected(fewest, most);
   if (fewest == most) option_->allow_extra_args(false);  // what follows is no value of it

@@ -19,6 +19,7 @@ class Option {
 
   Option& required(bool yes = true);
   Option& value(const char* name);       ///< what stands for its value in the help: "DIR"
+  Option& values(int fewest);            ///< so many or more
   Option& values(int fewest, int most);  ///< how many it takes at once
   Option& one_value_each();              ///< repeated to give several
   Option& one_of(const std::vector<std::string>& words);

@@ -61,7 +61,7 @@ void add_compare(CommandLine& app) {
       app.add_command("compare", "The same drive in several reports: over months, before and after a repair");
   command.add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")
       .required()
-      .values(2, 1000);
+      .values(2);
   command
       .add_option("-o,--output", arguments->output, "folder of the comparison (default: nothing is written)")
       .value("DIR");

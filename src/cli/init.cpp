@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 struct InitArguments {
   RecordingArguments recording;
-  std::string held_out;  ///< a second recording; empty: none
+  std::vector<std::string> further;  ///< recordings beside the first
+  std::string held_out;              ///< a recording; empty: none
   std::string output;
   std::string model;                               ///< empty: as the detector sees it
   std::string from, joint;                         ///< of a simulator's model; empty: none
@@ -81,17 +82,33 @@ std::vector<std::string> asked_of_units(const InitArguments& a) {
   return questions;
 }
 
-/// @throws ConfigError where the one that is held out is the one that is fitted
-void require_two_recordings(const InitArguments& a) {
+/// The recordings that are fitted.
+std::vector<std::string> fitted_files(const InitArguments& a) {
+  std::vector<std::string> files{a.recording.file};
+  files.insert(files.end(), a.further.begin(), a.further.end());
+  return files;
+}
+
+/// @throws ConfigError where the one that is held out is fitted, or one is named twice
+void require_other_recordings(const InitArguments& a) {
   std::error_code problem;
-  if (!a.held_out.empty() && fs::equivalent(a.held_out, a.recording.file, problem))
-    throw ConfigError(fmt::format("gapscope: --held-out is {}, the recording itself, expected a second one",
-                                  printable(a.held_out, 200)));
+  const std::vector<std::string> files = fitted_files(a);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!a.held_out.empty() && fs::equivalent(a.held_out, files[i], problem))
+      throw ConfigError(fmt::format("gapscope: --held-out is {}, {}, expected another one",
+                                    printable(a.held_out, 200),
+                                    files.size() == 1 ? "the recording itself" : "one of the recordings"));
+    for (std::size_t k = 0; k < i; ++k)
+      if (fs::equivalent(files[k], files[i], problem))
+        throw ConfigError(fmt::format("gapscope: {} is named twice, expected recordings that differ",
+                                      printable(files[i], 200)));
+  }
 }
 
 /// Both recordings, as if a configuration had named them.
 RecordingConfig recordings_of(const InitArguments& a, const RecordingArguments& r) {
   RecordingConfig config = r.configuration();
+  for (const std::string& file : a.further) config.files.push_back({.given = file, .path = file});
   if (!a.held_out.empty()) config.held_out.push_back({.given = a.held_out, .path = a.held_out});
   return config;
 }
@@ -137,7 +154,9 @@ void write_starter(const InitArguments& a, const RecordingArguments& r, bool sev
                                options_turned_round(a, r),
                                r.gain_sought()};
   const std::string output = output_of(a, r, several);
-  require_file_name(output, {r.file, a.held_out}, [](const std::string&) { return false; });
+  std::vector<std::string> inputs = fitted_files(a);
+  inputs.push_back(a.held_out);
+  require_file_name(output, inputs, [](const std::string&) { return false; });
   const fs::path parent = fs::path(output).parent_path();
   const Starter starter = starter_configuration(recordings_of(a, r), r.encoder(), r.coordinates(),
                                                 parent.empty() ? "." : parent.string(), known);
@@ -170,6 +189,8 @@ void add_init(CommandLine& app) {
   auto arguments = std::make_shared<InitArguments>();
   CommandLine command = app.add_command("init", "A first configuration from a recording");
   add_recording_arguments(command, arguments->recording);
+  command.add_option("MORE", arguments->further, "further recordings of the drive, read and fitted alike")
+      .values(0);
   command
       .add_option("--held-out", arguments->held_out,
                   "a second recording of this drive, which diagnose judges by (default: the last third); the "
@@ -218,7 +239,7 @@ void add_init(CommandLine& app) {
           .within(1e-9, 1e9);
   for (Option* other : {&from, &mass}) constant.excludes(*other);
   command.footer(
-      "Reads off the recording what it tells: columns, a rate for the detector where time is not uniform,\n"
+      "Reads off the recordings what they tell: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
       "detector decides). Of one body inertia, damping and Coulomb friction are read, for the fit to begin\n"
       "with: diagnose then says what is missing beside them.\n"
@@ -245,7 +266,7 @@ void add_init(CommandLine& app) {
       "run, fit, detect and diagnose accept the configuration as it is. Nothing is overwritten.\n\n"
       "Example: gapscope init drive.csv --input i_q --position theta -o drive.yaml");
   command.action([arguments, command] {
-    require_two_recordings(*arguments);
+    require_other_recordings(*arguments);
     arguments->options = command.given_options({"--held-out", "--output"});
     const auto all = arguments->recording.each_axis();
     if (const std::string banner = preset_banner(arguments->recording); !banner.empty())

@@ -1,6 +1,7 @@
 #include "gapscope/config/starter.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,10 +45,33 @@ double round_down(double rate) {
   return std::floor(rate / unit * (1.0 + 1e-9)) * unit;
 }
 
-double largest_of(const std::vector<double>& u) {
+double largest_input(const std::vector<Recording>& recordings) {
   double largest = 0.0;
-  for (const double v : u) largest = std::max(largest, std::abs(v));
+  for (const Recording& r : recordings)
+    for (const double v : r.u) largest = std::max(largest, std::abs(v));
   return largest;
+}
+
+/// Of the recordings whose number is one.
+double median_of(const std::vector<Inspection>& seen, double RecordingFacts::*number) {
+  std::vector<double> values;
+  for (const Inspection& i : seen)
+    if (std::isfinite(i.facts.*number)) values.push_back(i.facts.*number);
+  return values.empty() ? kNaN : median(std::move(values));
+}
+
+/// What all recordings tell of one drive: the finest step, the lowest rate, of the rest the middle.
+RecordingFacts facts_of_all(const std::vector<Inspection>& seen) {
+  RecordingFacts all = seen.front().facts;
+  for (const Inspection& i : seen) {
+    all.uniform = all.uniform && i.facts.uniform;
+    all.rate = std::min(all.rate, i.facts.rate);
+    if (!(all.quantum <= i.facts.quantum)) all.quantum = i.facts.quantum;
+  }
+  for (const auto number : {&RecordingFacts::inertia, &RecordingFacts::damping, &RecordingFacts::friction,
+                            &RecordingFacts::hangs_at})
+    all.*number = median_of(seen, number);
+  return all;
 }
 
 /// A name that a folder may have.
@@ -64,14 +88,21 @@ std::string named_from(const std::string& folder, const std::string& recording) 
   return stays ? recording : std::filesystem::proximate(recording, folder).generic_string();
 }
 
+/// One file, or the list of several.
+std::string files_text(const std::string& folder, const std::vector<RecordedFile>& files) {
+  std::vector<std::string> names;
+  for (const RecordedFile& file : files) names.push_back(yaml_text(named_from(folder, file.path)));
+  return names.size() == 1 ? names.front() : fmt::format("[{}]", fmt::join(names, ", "));
+}
+
 void write_recording(YamlWriter& out, const std::string& folder, const RecordingConfig& recording,
                      bool resampled, const std::string& order) {
   const ReadOptions& options = recording.reading;
   out.open("recording");
   if (!order.empty()) out.comment(order);
-  out.entry("file", yaml_text(named_from(folder, recording.files.front().path)));
+  out.entry("file", files_text(folder, recording.files));
   if (!recording.held_out.empty())
-    out.entry("held_out", yaml_text(named_from(folder, recording.held_out.front().path)), "for diagnose");
+    out.entry("held_out", files_text(folder, recording.held_out), "for diagnose");
   else
     out.comment(
         "held_out: another.csv   # a second recording of this drive, for diagnose; else the last third");
@@ -230,44 +261,59 @@ void warn_of_notes(const RecordingConfig& config, const RecordedFile& file, Coor
 Starter starter_configuration(RecordingConfig config, const EncoderConfig& encoder, Coordinates coordinates,
                               const std::string& folder, const StarterKnowledge& known) {
   const std::optional<JointNumbers>& nominal = known.nominal;
-  const std::string& recording = config.files.front().path;
   ReadOptions& options = config.reading;
-  Inspection seen = inspected(config, recording, options, coordinates);
-  judge_for_encoder(internal::config::position_quantum(encoder, config), config.units.position == "counts",
-                    seen);
-  if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen);
-  const bool irregular = !options.resample_rate && !seen.facts.uniform;
-  if (irregular) options.resample_rate = round_down(seen.facts.rate);
-  const Recording r = read_recording(recording, options);
+  std::vector<Inspection> seen;
+  for (const RecordedFile& file : config.files) {
+    seen.push_back(inspected(config, file.path, options, coordinates));
+    judge_for_encoder(internal::config::position_quantum(encoder, config), config.units.position == "counts",
+                      seen.back());
+    if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen.back());
+  }
+  const RecordingFacts facts = facts_of_all(seen);
+  const bool irregular = !options.resample_rate && !facts.uniform;
+  if (irregular) options.resample_rate = round_down(facts.rate);
+  std::vector<Recording> recordings;
+  std::vector<MotorTrace> traces;
+  for (const RecordedFile& file : config.files) recordings.push_back(read_recording(file.path, options));
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  const EncoderSide side = recordings.front().encoder;
   const StarterChoice choice = nominal && known.model == StarterModel::kAsSeen
-                                   ? as_modelled(*nominal, r.motor_trace(), r.encoder, coordinates)
-                                   : chosen_structure(known.model, r.motor_trace(), r.encoder, coordinates);
+                                   ? as_modelled(*nominal, traces, side, coordinates)
+                                   : chosen_structure(known.model, traces, side, coordinates);
   const bool one_body = choice.structure == StarterModel::kOneBody;
-  if (one_body && choice.seen) judge_for(Purpose::kDiagnosis, seen);  // nobody asks the detector
+  if (one_body && choice.seen)  // nobody asks the detector
+    for (Inspection& i : seen) judge_for(Purpose::kDiagnosis, i);
   Starter starter;
   starter.model = choice.why;
   starter.assumed = config.assumed;
-  starter.assumed.insert(starter.assumed.end(), seen.assumed.begin(), seen.assumed.end());
-  if (options.unwrap == Unwrap::kAuto && was_unwrapped(seen.assumed)) options.unwrap = Unwrap::kAlways;
+  starter.assumed.insert(starter.assumed.end(), seen.front().assumed.begin(), seen.front().assumed.end());
+  if (options.unwrap == Unwrap::kAuto &&
+      std::ranges::any_of(seen, [](const Inspection& i) { return was_unwrapped(i.assumed); }))
+    options.unwrap = Unwrap::kAlways;
   if (!choice.seen && choice.structure != StarterModel::kOneBody)
     starter.model += "; where there is none, --model one_body is the quicker model";
-  if (!config.held_out.empty()) starter.order = order_told(config, known.options, coordinates);
+  if (config.files.size() == 1 && !config.held_out.empty())
+    starter.order = order_told(config, known.options, coordinates);
   for (const auto* files : {&config.files, &config.held_out})
     for (const RecordedFile& file : *files) warn_of_notes(config, file, coordinates, starter);
   YamlWriter out(coordinates);
-  for (const Finding& f : seen.findings) {
-    const bool settled = f.rule == kTimeRule && irregular;
-    if (f.severity != Severity::kSpoils || settled) continue;
-    starter.spoiling.push_back(f.rule + ": " + f.found + " -> " + f.advice);
-    out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back());
-  }
-  const std::string& named = !known.name.empty() ? known.name : nominal ? nominal->joint : recording;
+  for (const Inspection& i : seen)
+    for (const Finding& f : i.findings) {
+      const bool settled = f.rule == kTimeRule && irregular;
+      if (f.severity != Severity::kSpoils || settled) continue;
+      const std::string which = seen.size() > 1 ? printable(i.file, 200) + ": " : "";
+      starter.spoiling.push_back(which + f.rule + ": " + f.found + " -> " + f.advice);
+      out.comment("SPOILS THE ESTIMATES, " + starter.spoiling.back());
+    }
+  const std::string& named = !known.name.empty() ? known.name
+                             : nominal           ? nominal->joint
+                                                 : config.files.front().path;
   out.entry("name", plain_name(named), "of the report: reports/<name>");
   write_recording(out, folder, config, irregular, starter.order);
-  write_encoder(out, encoder, seen.facts, config.gear.position, coordinates);
+  write_encoder(out, encoder, facts, config.gear.position, coordinates);
   if (config.reading.controller) write_commanding(out, config, known.gain_sought, coordinates);
   out.entry("coordinates", coordinates.name());
-  Begin begin = begin_of(seen.facts, one_body, nominal);
+  Begin begin = begin_of(facts, one_body, nominal);
   if (nominal) doubt_the_gear(config, coordinates, begin.numbers);
   begin.input_is_torque = !(begin.numbers.torque_constant > 0.0) && is_drive_torque(config, coordinates);
   begin.gain_sought = known.gain_sought && !std::isfinite(config.reading.controller->saturation);
@@ -280,13 +326,14 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
   const bool rubs_as_anchored = begin.anchored && std::isfinite(known.anchor->friction);
   if (rubs_as_anchored) begin.numbers.friction = kNaN;
   begin.friction_sought = !one_body && !nominal && !rubs_as_anchored;
-  begin.largest_input = largest_of(r.u), begin.geared = config.gear.position != config.gear.load_position;
+  begin.largest_input = largest_input(recordings),
+  begin.geared = config.gear.position != config.gear.load_position;
   doubt_the_control(begin, coordinates);
   fit_to_structure(begin, choice.structure);
   write_model(out, choice, begin, coordinates);
   starter.remarks = begin.numbers.notes;
   out.entry("detector", "{bound: auto}");
-  const double hangs_at = seen.facts.hangs_at;
+  const double hangs_at = facts.hangs_at;
   if (known.anchor)
     out.entry("anchor", anchor_text(*known.anchor, hangs_at), anchor_comment(*known.anchor, hangs_at));
   else if (!begin.settled())

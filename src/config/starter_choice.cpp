@@ -9,10 +9,13 @@ namespace gapscope::internal::config {
 namespace {
 
 /// What the detector saw decides: a locked output is one whose position is a loop over the input.
-StarterChoice as_seen(const MotorTrace& trace, Coordinates coordinates) {
-  const GapEstimate g = detect_gap(std::span(&trace, 1));
+StarterChoice as_seen(std::span<const MotorTrace> traces, Coordinates coordinates) {
+  const GapEstimate g = detect_gap(traces);
   if (g.method == GapMethod::kLostMotion)
-    return {StarterModel::kLocked, "locked output: x1 follows u in a loop"};
+    return {StarterModel::kLocked,
+            "GUESS: locked output; x1 follows u in a loop, as that of a held output does and that of a load "
+            "whose friction takes nearly the whole torque",
+            false};
   if (g.verdict == GapVerdict::kNone)
     return {StarterModel::kOneBody,
             "one body: a gap above " + coordinates.thousandths(g.none_above()) + " would have shown"};
@@ -29,7 +32,7 @@ StarterChoice as_seen(const MotorTrace& trace, Coordinates coordinates) {
 
 }  // namespace
 
-StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, EncoderSide encoder,
+StarterChoice chosen_structure(StarterModel model, std::span<const MotorTrace> traces, EncoderSide encoder,
                                Coordinates coordinates) {
   switch (model) {
     case StarterModel::kAsSeen:
@@ -38,7 +41,7 @@ StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, Enco
             StarterModel::kOneBody,
             "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
             false};
-      return as_seen(trace, coordinates);
+      return as_seen(traces, coordinates);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};
     case StarterModel::kLocked:
@@ -49,13 +52,13 @@ StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, Enco
   return {};
 }
 
-StarterChoice as_modelled(const JointNumbers& n, const MotorTrace& trace, EncoderSide encoder,
+StarterChoice as_modelled(const JointNumbers& n, std::span<const MotorTrace> traces, EncoderSide encoder,
                           Coordinates coordinates) {
   const std::string where = "joint " + printable(n.joint, 40) + " of " + printable(n.model, 80);
   if (n.gap > 0.0 && n.locked) return {StarterModel::kLocked, "locked output, as " + where + " has it"};
   if (n.gap > 0.0) return {StarterModel::kGap, "gap and free load, as " + where + " has them"};
   if (encoder == EncoderSide::kLoad) return {StarterModel::kOneBody, "one body, as " + where + " has it"};
-  StarterChoice seen = as_seen(trace, coordinates);
+  StarterChoice seen = as_seen(traces, coordinates);
   if (!seen.seen || seen.structure == StarterModel::kOneBody)
     return {StarterModel::kOneBody, "one body, as " + where + " has it"};
   seen.why += "; " + where + " knows of none";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "gapscope/config/starter.h"
@@ -14,11 +15,11 @@ struct StarterChoice {
 };
 
 /// As asked for; where nobody asks, as the detector sees it.
-StarterChoice chosen_structure(StarterModel model, const MotorTrace& trace, EncoderSide encoder,
+StarterChoice chosen_structure(StarterModel model, std::span<const MotorTrace> traces, EncoderSide encoder,
                                Coordinates coordinates);
 
 /// That of a simulator's model, unless it knows of no gap and the detector does.
-StarterChoice as_modelled(const JointNumbers& numbers, const MotorTrace& trace, EncoderSide encoder,
-                          Coordinates coordinates);
+StarterChoice as_modelled(const JointNumbers& numbers, std::span<const MotorTrace> traces,
+                          EncoderSide encoder, Coordinates coordinates);
 
 }  // namespace gapscope::internal::config

@@ -235,6 +235,38 @@ TEST(Init, AHeldOutRecordingIsNamedAndReadByTheDiagnosis) {
   EXPECT_FALSE(place.content().count("other.yaml"));
 }
 
+TEST(Init, SeveralRecordingsAreOneDrive) {
+  Workplace place;
+  place.file("1.csv",
+             one_body_csv([](double t) { return 0.1 * std::sin(9.0 * t) + 0.06 * std::sin(31.0 * t); }));
+  place.file("2.csv",
+             one_body_csv([](double t) { return 0.2 * std::sin(7.0 * t) + 0.10 * std::sin(23.0 * t); }));
+  place.file("3.csv",
+             one_body_csv([](double t) { return 0.3 * std::sin(9.0 * t) + 0.20 * std::sin(31.0 * t); }));
+  const std::string yaml = tried(place, "1.csv 2.csv 3.csv --model one_body");
+  EXPECT_THAT(yaml, HasSubstr("file: [\"1.csv\", \"2.csv\", \"3.csv\"]"));
+  EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.005"));
+  const std::string result = testing::text_of(place.folder() / "report/result.json");
+  for (const char* file : {"1.csv", "2.csv", "3.csv"}) EXPECT_THAT(result, HasSubstr(file));
+  const auto twice = place.run("init 1.csv 2.csv 1.csv -o other.yaml");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("1.csv is named twice"));
+}
+
+/// A free load that sticks where its friction takes nearly the whole torque makes the loop of a held output.
+TEST(Init, AnOutputIsTakenForALockedOneByAGuessAlone) {
+  Workplace place;
+  const std::string rig = std::string(GAPSCOPE_SOURCE_DIR) + "/configs/02_experiment.yaml";
+  std::string changed = " --set 'simulation.model.effects=[{contact_adhesion: {release_nm: 0.07}}]'";
+  for (const char* parameter : {"load_coulomb_friction=0.098", "motor_damping=0.03", "load_damping=0.04",
+                                "contact_stiffness=800", "contact_damping=0.1"})
+    changed += std::string(" --set simulation.model.parameters.") + parameter;
+  ASSERT_EQ(place.run("simulate " + rig + changed + " -o r.csv").status, 0);
+  const auto init = place.run("init r.csv -o drive.yaml");
+  EXPECT_THAT(init.out, HasSubstr("model       GUESS: locked output"));
+  EXPECT_THAT(testing::text_of(place.folder() / "drive.yaml"), HasSubstr("  # GUESS: locked output"));
+}
+
 TEST(Init, AWarningSaysWhatToDo) {
   Workplace place;
   testing::Rows rows = testing::rig();
