@@ -204,8 +204,9 @@ Json result_schema() {
            "and more; null where it is not known, and where it is no smaller than a gap that shows");
   describe(
       estimate, "gap_at_most_rad",
-      "no gap is larger: by the denial, or by the loop of lost motion, whose play at one torque level is a "
-      "bound and a gap only where the output is declared locked; null where no bound is known");
+      "no gap is larger: by the denial, by the loop of lost motion, whose play at one torque level is a "
+      "bound and a gap only where the output is declared locked, or by passages that end in an impact, if "
+      "their load was no faster than the motor; null where no bound is known");
   Json& event = estimate["events"]["items"]["properties"];
   describe(event, "t_c_s", "e_x is at rest from here to t1; null where it was not");
   describe(event, "t1_s", "contact is lost; null where only the impact is seen");

@@ -45,8 +45,8 @@ ToldGap told_by(const GapEstimate& reading) {
     told.trust = trust_of(reading);
     told.gap = reading.gap, told.ci95 = reading.ci95;
     told.why = fmt::format("{} {} {}", to_string(reading.method), to_string(reading.quantity), told.why);
-  } else if (reading.verdict == GapVerdict::kNone) {
-    told.bound = reading.none_above();
+  } else {
+    told.bound = reading.gap_at_most;
   }
   return told;
 }
@@ -61,12 +61,12 @@ ToldGap told_by(const FitSummary& fit) {
   return told;
 }
 
-ToldGap told_by(const Answer& card, const GapEstimate& reading) {
+ToldGap told_by(const Answer& card) {
   ToldGap told;
   told.trust = card.trust;
   told.gap = card.gap, told.ci95 = card.ci95;
   told.why = to_string(card.from);
-  if (!told.tells() && card.from == AnswerSource::kModelFree) told.bound = told_by(reading).bound;
+  if (!told.tells()) told.bound = card.gap_at_most;
   return told;
 }
 
@@ -111,7 +111,7 @@ std::string in_words(const ToldGap& told, const Interval& truth) {
     return fmt::format("{:.4g} [{:.4g}, {:.4g}] {} {} ({})", 1e3 * told.gap, 1e3 * told.ci95.low,
                        1e3 * told.ci95.high, to_string(told.trust), word(verity_of(told, truth)), told.why);
   if (told.bounds())
-    return fmt::format("none above {:.4g} {}", 1e3 * told.bound,
+    return fmt::format("at most {:.4g} {}", 1e3 * told.bound,
                        told.bound >= truth.low ? "binds" : "does not bind");
   return fmt::format("refused {}", told.why);
 }

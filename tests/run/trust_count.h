@@ -22,7 +22,7 @@ struct ToldGap {
 
 ToldGap told_by(const GapEstimate& reading);
 ToldGap told_by(const FitSummary& fit);
-ToldGap told_by(const Answer& card, const GapEstimate& reading);
+ToldGap told_by(const Answer& card);
 
 /// How a number stands to what is true, smallest to largest over a turn.
 enum class Verity { kHolds, kMisses, kMissesByFar };

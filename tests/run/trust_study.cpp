@@ -87,7 +87,7 @@ void count(const RunResult& result, const ChainCase& c, bool each, FamilyCounts&
   };
   add("reading", told_by(*result.model_free), counts.reading);
   if (result.reference) add("fit", told_by(*result.reference), counts.fit);
-  add("card", told_by(*result.answer, *result.model_free), counts.card);
+  add("card", told_by(*result.answer), counts.card);
   if (each) fmt::print("{}\n", line);
 }
 

@@ -34,6 +34,8 @@ constexpr double kGoesAlong = 0.15;
 
 constexpr double kFewestBeforeTurn = 16.0;  ///< samples by which a law knows both sides of a turn
 
+constexpr std::size_t kSpeeds = 20;  ///< of a stroke, each a mean over its part
+
 /// Samples at one place before t1 that make a rest. Of study_sliding_mode 6700001 60 gap triangle rubs and
 /// 6700101 60 gap sine rubs it reads three more than without; half and double read the same.
 constexpr std::size_t kRested = 12;
@@ -63,11 +65,16 @@ bool goes_on(const PassageContext& context, int direction, std::size_t from, std
   return direction * (most - y[to]) > context.facts.least_way();
 }
 
+/// Nothing before it belongs to the flight that ends in an impact [samples].
+std::size_t flight_begin(const PassageContext& context, const BankEvent& impact) {
+  const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
+  return impact.start - std::min(impact.start, reach);
+}
+
 /// @param turn  when the speed was zero [samples]
 signals::LawStretch flight_window(const PassageContext& context, const BankEvent& impact, const Reversal& r,
                                   double turn) {
-  const auto reach = static_cast<std::size_t>(kReach * context.facts.half_period / context.trace.dt);
-  const std::size_t first = impact.start - std::min(impact.start, reach);
+  const std::size_t first = flight_begin(context, impact);
   const std::size_t after = (impact.start - r.last) / 4 + 3 * impact.latency + 2;
   const std::size_t last = std::min(impact.start + after, context.trace.size() - 1);
   return {first, last, std::max(turn, static_cast<double>(first)), r.direction};
@@ -174,6 +181,20 @@ void read_release(Passage& t, const PassageContext& context, const FlightLaw& la
   if (t.refusal == Refusal::kNone && along > kGoesAlong * t.event.gap) t.refusal = Refusal::kPushed;
 }
 
+/// The largest gap that a passage can be: of a load that parted from the motor at any instant of the stroke
+/// before, at the motor's speed, and kept that until the impact.
+double most_of(const MotorTrace& trace, const Reversal& r, std::size_t from, const ImpactTime& impact) {
+  const std::size_t span = std::max<std::size_t>(2, (r.last - from) / kSpeeds);
+  double most = r.direction * (impact.position - trace.x1[r.last]);
+  for (std::size_t i = from + span; i <= r.last; ++i) {
+    const double parted = static_cast<double>(i) - 0.5 * static_cast<double>(span);
+    const double speed = r.direction * (trace.x1[i - span] - trace.x1[i]) / static_cast<double>(span);
+    const double place = 0.5 * (trace.x1[i - span] + trace.x1[i]);
+    most = std::max(most, r.direction * (impact.position - place) + speed * (impact.time - parted));
+  }
+  return most;
+}
+
 /// Where x1 stays at t1: at its turn, or behind it, where the motor came to rest once more.
 Reversal stay_at(const PassageContext& context, const Reversal& turn, std::size_t t1) {
   const auto& y = context.trace.x1;
@@ -220,6 +241,7 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   t.speed = t.event.direction * time.speed;
   t.acceleration = t.event.direction * time.acceleration;
   t.stiffness = time.stiffness;
+  if (!small) t.most = most_of(trace, reversal, std::min(from, flight_begin(context, impact)), time);
   if (time.freed) {
     t.refusal = Refusal::kTorn;
     return t;
@@ -279,7 +301,7 @@ Passage read_passage(const PassageContext& context, const BankEvent& before, con
       bound_needed_before(run, from, to - std::min(to - from, std::max<std::size_t>(2, impact.latency))));
   t.contrast = impact.abruptness / needed;
   if (t.contrast < kContrast)
-    t.refusal = Refusal::kContrast;
+    t.refusal = Refusal::kContrast, t.most = kNaN;
   else if (t.refusal == Refusal::kNone && thrown_off(context, before, impact, t))
     t.refusal = Refusal::kThrownOff;
   return t;

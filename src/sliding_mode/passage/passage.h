@@ -21,14 +21,15 @@ struct Passage {
   double contrast = 0.0;    ///< abruptness over what the motion before it needs
   double half_width = 0.0;  ///< systematic, 95 %: where the release and the load's travel may lie [rad]
   double speed = 0.0;  ///< at which the gap closes: of the motor before the impact, less the load's [rad/s]
-  double acceleration = 0.0;               ///< of the motor in the gap, just before the impact [rad/s²]
-  double stiffness = 0.0;                  ///< of the contact, over the motor's inertia; 0: rigid [1/s²]
-  double load_travel = 0.0;                ///< assumed between t1 and t2 [rad]
-  bool dwell = false;                      ///< the motor rested before it entered the gap
-  bool untold = false;                     ///< … and whether that was at its load is not to be seen
-  bool by_law = false;                     ///< the load's travel is by the law of the engaged flank
-  double t1_first = kNaN, t1_last = kNaN;  ///< between which contact was lost [s]
-  double t2_half_width = 0.0;              ///< of half_width, by t2 alone [s]
+  double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
+  double stiffness = 0.0;     ///< of the contact, over the motor's inertia; 0: rigid [1/s²]
+  double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
+  double most = kNaN;         ///< the gap, of a load that kept its speed from wherever it parted [rad]
+  bool dwell = false;         ///< the motor rested before it entered the gap
+  bool untold = false;        ///< … and whether that was at its load is not to be seen
+  bool by_law = false;        ///< the load's travel is by the law of the engaged flank
+  double t1_first = kNaN, t1_last = kNaN;             ///< between which contact was lost [s]
+  double t2_half_width = 0.0;                         ///< of half_width, by t2 alone [s]
   bool released() const { return half_width > 0.0; }  ///< both ends of the flight were found
 };
 

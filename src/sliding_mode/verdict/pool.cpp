@@ -131,6 +131,15 @@ bool load_known(const Pool& pool) {
   return 2 * known >= std::ssize(pool.accepted);
 }
 
+/// No gap is larger than what most half periods show; the upper quartile, for one that is none.
+double at_most(const Pool& pool) {
+  if (static_cast<double>(pool.largest.size()) < kMost * pool.half_periods) return kNaN;
+  std::vector<double> all = pool.largest;
+  const auto upper = all.begin() + static_cast<std::ptrdiff_t>(3 * all.size() / 4);
+  std::nth_element(all.begin(), upper, all.end());
+  return *upper;
+}
+
 Deviations deviations(const Pool& pool, const Middle& m) {
   const double witnesses = (m.only == 0 ? 0.5 : 1.0) * static_cast<double>(m.used);
   return {m.scatter / std::sqrt(std::max(witnesses, 1.0)),
@@ -184,6 +193,7 @@ Pool pool_of(std::span<const ImpactAnalysis> analyses, std::span<const double> i
       ++pool.passages[p.event.direction];
       pool.mute[p.event.direction] += says_nothing(p.refusal);
       pool.striking += p.contrast >= kStriking;
+      if (std::isfinite(p.most)) pool.largest.push_back(p.most);
       if (p.refusal == Refusal::kNone)
         pool.accepted.push_back(&p);
       else
@@ -202,6 +212,7 @@ GapEvidence gap_evidence(const Pool& pool) {
   e.against = pool.half_periods > 0.0 ? objection(pool, m)
               : pool.defect.empty()   ? words::no_recording()
                                       : pool.defect;
+  if (pool.half_periods > 0.0) e.at_most = at_most(pool);
   if (!e.against.empty()) return e;
   e.gap = m.gap;
   e.parts = deviations(pool, m);

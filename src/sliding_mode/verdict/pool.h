@@ -19,6 +19,7 @@ struct Pool {
   std::map<int, std::size_t> passages;     // by direction
   std::map<int, std::size_t> mute;         // of them, that say nothing for or against a gap
   std::vector<GapEvent> events;            // of all passages
+  std::vector<double> largest;             // the gap, of those that end in an impact [rad]
   Remark defect;                           // of the first recording in which nothing can be detected
   std::size_t marks = 0, striking = 0;     // main events; passages that friction does not make
   double half_periods = 0.0, travel = kInfinity, dt = 0.0, noise = 0.0, quantum = 0.0;

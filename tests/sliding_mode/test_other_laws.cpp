@@ -1,0 +1,49 @@
+// Drives of laws that the detector was not built on: a number that it tells well holds, a bound bounds.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "gapscope/sliding_mode/detector.h"
+#include "independent_plant/family.h"
+
+namespace gapscope {
+namespace {
+
+struct Read {
+  GapEstimate estimate;
+  Interval truth;  ///< [rad]
+
+  bool well() const { return estimate.trust == GapTrust::kGood; }
+  bool holds() const { return estimate.ci95.low <= truth.high && truth.low <= estimate.ci95.high; }
+};
+
+Read read(const std::string& family, std::uint64_t seed) {
+  const independent_plant::ChainCase c = independent_plant::draw_family(family, seed);
+  const independent_plant::ChainRun run = independent_plant::simulate_chain(c);
+  const MotorTrace trace = run.recording.motor_trace();
+  return {detect_gap({&trace, 1}), independent_plant::total_gap(c.drive)};
+}
+
+/// The motor leaves a bounce, rests within the gap and goes on from there.
+TEST(OtherLaws, ARestBehindTheTurnIsLookedAtAsOneAtTheTurn) {
+  const Read drive = read("hunt_crossley", 20);
+  EXPECT_FALSE(drive.well() && !drive.holds()) << drive.estimate.brief_report();
+}
+
+/// At 500 Hz too few samples show how the motor got to its rest; the load had gone on by a quarter of the
+/// gap.
+TEST(OtherLaws, ARestWhoseArrivalIsTooShortToTellIsNoneAtTheLoad) {
+  const Read drive = read("stribeck_load", 24);
+  EXPECT_FALSE(drive.well() && !drive.holds()) << drive.estimate.brief_report();
+}
+
+TEST(OtherLaws, WhatIsRefusedIsBoundWhereMostPassagesEndInAnImpact) {
+  for (const std::uint64_t seed : {2, 6, 9}) {
+    const Read drive = read("pd_joint", seed);
+    EXPECT_EQ(drive.estimate.verdict, GapVerdict::kInconclusive) << seed;
+    EXPECT_GE(drive.estimate.gap_at_most, drive.truth.low) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace gapscope
