@@ -3,6 +3,7 @@
 #include <gapscope/base/errors.h>
 #include <gapscope/diagnosis/diagnosis.h>
 #include <gapscope/recording/recording_file.h>
+#include <gapscope/telling/card.h>
 
 #include <cstdio>
 
@@ -20,7 +21,8 @@ gapscope::ReferenceModel one_body() {
   return model;
 }
 
-void print(const gapscope::Diagnosis& diagnosis) {
+void print(gapscope::Diagnosis diagnosis) {
+  gapscope::put_into_words(diagnosis, {});
   std::printf("%s\n", diagnosis.sentence.c_str());
   std::printf("held-out error %.3g -> %.3g rad, encoder floor %.3g rad\n", diagnosis.mismatch.before,
               diagnosis.mismatch.after, diagnosis.mismatch.floor);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -85,6 +86,17 @@ std::string Remark::codes() const {
   for (const Part& part : parts_)
     if (!part.code.empty() && !contains(all, part.code)) all.push_back(part.code);
   return fmt::format("{}", fmt::join(all, "/"));
+}
+
+bool Remark::has_code(const std::string& code) const {
+  return std::ranges::find(parts_, code, &Part::code) != parts_.end();
+}
+
+Remark Remark::behind(const std::string& code) const {
+  Remark rest;
+  auto at = std::ranges::find(parts_, code, &Part::code);
+  if (at != parts_.end()) rest.parts_.assign(std::next(at), parts_.end());
+  return rest;
 }
 
 std::vector<Remark::Value> Remark::values() const {

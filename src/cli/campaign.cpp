@@ -28,6 +28,7 @@ struct CampaignArguments {
   std::string shard;
   bool dry_run = false;
   bool quiet = false;
+  FigureFormats figures;
 };
 
 /// "K/N" with 1 ≤ K ≤ N.
@@ -99,16 +100,17 @@ void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
 }
 
 /// The report of a campaign of which every run is there, else the list of what is there.
-void report_whole(ReportFolder& report, const std::string& folder, const CampaignSummary& summary) {
+void report_whole(ReportFolder& report, const std::string& folder, const CampaignSummary& summary,
+                  const FigureFormats& figures) {
   const bool whole = summary.done >= summary.runs;
   if (whole) {
     write_campaign_summary(report.path(), summary);
-    write_campaign_report(report.path());
+    write_campaign_report(report.path(), figures);
   }
   stop_point();
   report.commit();
   if (!whole) return;
-  say("report", folder + "/report.md");
+  say("report", folder + "/report.html");
   for (const SummaryAnswer& a : summary.answers)
     if (a.tolerance == 0.02)  // the other tolerances are in the report
       say(a.estimator.c_str(), fmt::format("for at most 2 %, {}: {}", a.parameters, a.needs));
@@ -134,7 +136,7 @@ void run(const CampaignArguments& a) {
   ReportFolder(folder, FolderKind::kCampaign, inputs).leave();  // the store keeps others out from here on
   const auto summary = run_and_summarise(c, shard, folder, a);
   ReportFolder report(folder, FolderKind::kCampaign, inputs);
-  if (shard.of == 1) return report_whole(report, folder, summary);
+  if (shard.of == 1) return report_whole(report, folder, summary, a.figures);
   report.commit();
 }
 
@@ -184,7 +186,7 @@ void add_merge(CommandLine& campaign) {
     const CampaignSummary summary = summarise(CampaignStore(report.path()));
     say("store", a->target + "/results.sqlite");
     say("runs", fmt::format("{} of {}", merged, summary.runs));
-    report_whole(report, a->target, summary);
+    report_whole(report, a->target, summary, {});
   });
 }
 
@@ -199,6 +201,7 @@ void add_campaign(CommandLine& app) {
       .value("DIR");
   command.add_option("--shard", a->shard, "only part K of N, into a folder of its own").value("K/N");
   command.add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
+  command.add_flag("--svg", a->figures.svg, kSvgHelp);
   add_work_options(command, a->threads, a->quiet);
   command.may_have_command();
   command.footer(

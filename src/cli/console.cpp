@@ -154,7 +154,9 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
   for (const CardLine& l : card.lines()) {
     if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
     const bool further = !card.diagnosed && &l.text == &card.place;
-    const bool to_diagnose = !c.to_begin.empty() && l.brief.starts_with("Run `gapscope diagnose CONFIG`");
+    const bool is_next = &l.text == &card.next;
+    const bool to_diagnose =
+        is_next && !c.to_begin.empty() && (card.asks("next.diagnose") || card.asks("next.diagnose.lacks"));
     const std::string text =
         to_diagnose
             ? "Make a model as above: a diagnosis with it tells where the drive differs from it, and why."
@@ -163,7 +165,8 @@ void print_card(const Card& card, const ToldConfiguration& c, const std::string&
             ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
             : "The place of the error, its cause and what helps take a model: `gapscope init " + c.to_begin +
                   "` writes a first one; run `gapscope diagnose` with that.";
-    const bool goes_on = text.find(" --model-from ") != text.npos;  // and names a folder of its own
+    const bool goes_on =  // and names a folder of its own
+        is_next && (card.asks("next.go_on") || card.asks("next.read_gap"));
     const Placeholder all[] = {{"DIR", folder},
                                {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
     line(further ? "diagnosis" : l.name, filled_in(text, all));

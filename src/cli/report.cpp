@@ -75,13 +75,14 @@ void redraw(const std::string& folder, const FigureFormats& formats) {
 void add_report(CommandLine& app) {
   struct ReportArguments {
     std::string folder;
-    bool quiet = false;
+    bool quiet = false, untitled = false;
     FigureFormats figures;
   };
   auto arguments = std::make_shared<ReportArguments>();
   CommandLine command = app.add_command("report", "Draws a report again from its stored results");
   command.add_option("DIR", arguments->folder, "folder of a report").required();
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
+  command.add_flag("--no-title", arguments->untitled, "figures without their title: a paper has captions");
   command.add_flag("--small", arguments->figures.small,
                    "each figure at half the size and packed tightly, for a page or a mail");
   command.add_flag("--quiet", arguments->quiet, "no progress");
@@ -94,6 +95,7 @@ void add_report(CommandLine& app) {
     if (!std::filesystem::is_directory(arguments->folder))
       throw ConfigError(arguments->folder, "there is no such folder, expected the folder of a report");
     progress_on_terminal(arguments->quiet)("drawing " + arguments->folder);
+    arguments->figures.title = !arguments->untitled;
     redraw(arguments->folder, arguments->figures);
     fmt::print("{:<12}{}\n", "report", arguments->folder);
   });

@@ -11,9 +11,9 @@
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/percents.h"
 #include "gapscope/base/shown.h"
-#include "gapscope/diagnosis/card.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
+#include "gapscope/telling/card.h"
 
 namespace gapscope {
 namespace {

@@ -260,12 +260,12 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
   std::string left = added.accepted ? motion_left(study.held_out, added.after) : "";
   if (!left.empty()) added = {};
   Diagnosis diagnosis = verdict_on(study, found, added, ladder, left.empty());
-  open_undetermined(options.coordinates, diagnosis);
+  open_undetermined(diagnosis);
   if (!left.empty())
     diagnosis.warnings.push_back("no effect is named: with effects added, too, " + left + ".");
   if (diagnosis.verdict == DiagnosisVerdict::kNone) require_driven(study, found.before);
   diagnosis.evidence = evidence_of(study, found);
-  if (finish_requested()) tell_stopped(study, added, !ladder.added.empty(), diagnosis);
+  if (finish_requested()) tell_stopped(added, !ladder.added.empty(), diagnosis);
   if (!finish_requested() && (options.known.detectable || diagnosis.effects.empty()))
     tell_detectable(study, found, diagnosis);
   if (!ladder.added.empty() && diagnosis.mismatch.after > diagnosis.mismatch.before)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/headline.h"
 #include "diagnosis/law_fit.h"
 #include "diagnosis/motion.h"
+#include "diagnosis/place.h"
 #include "diagnosis/step.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"

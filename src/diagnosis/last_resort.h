@@ -7,6 +7,7 @@
 
 #include "diagnosis/ranking.h"
 #include "diagnosis/study.h"
+#include "diagnosis/told_facts.h"
 #include "gapscope/diagnosis/last_resort.h"
 
 namespace gapscope::internal::diagnosis {
@@ -20,9 +21,6 @@ struct LawSearch {
   /// fitted, too. The second half judges.
   std::shared_ptr<const Study> wider;
 };
-
-/// The variable that a law of last resort, or an effect, is a function of; "" for an effect of another kind.
-std::string variable_of(const EffectEntry& entry);
 
 /// Every law of last resort on top of a model, with as few nodes or harmonics as what is held out asks for,
 /// refitted by the simulator and judged like an effect. Nothing where the model is at the floor or no law

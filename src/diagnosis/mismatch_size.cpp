@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "gapscope/base/statistics.h"
-#include "gapscope/diagnosis/card.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -103,6 +102,7 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
   const double encoder = pooled_floor(held);
   const double restart = held.traces.front().dt * static_cast<double>(held.restart(0));
   MismatchSize size;
+  size.judged_by = predicted ? JudgedBy::kPrediction : JudgedBy::kFreeRun;
   size.measure =
       predicted ? fmt::format("prediction of an observer at {:g} Hz, median over windows of the rms",
                               study.observer_hz)

@@ -134,36 +134,6 @@ double travel_of(const MotorTrace& t) {
   return *high - *low;
 }
 
-/// "6.06 σ if torque ripple is the cause, 8.74 σ if constant load torque is the cause"
-std::string separations_of(const TriedInput& best) {
-  std::string separate, apart;
-  for (const Separation& s : best.separations) {
-    if (s.contained)
-      apart += fmt::format("; if {} is the cause nothing can, because {} contains it", s.truth, s.rival);
-    else
-      separate +=
-          fmt::format("{}{:.3g} σ if {} is the cause", separate.empty() ? "" : ", ", s.excess, s.truth);
-  }
-  return separate + apart;
-}
-
-std::string proposal_of(const TriedInput& best, double duration) {
-  return readable(fmt::format("Record {} for {:.3g} s: it would separate the two causes by {}.",
-                              describe(best.excitation), duration, separations_of(best)));
-}
-
-/// What is to be done where none of the inputs is worth the recording.
-std::string refusal_of(const std::vector<TriedInput>& tried, const std::vector<Rival>& rivals) {
-  std::string names;
-  for (const Rival& r : rivals) names += (names.empty() ? "" : " from ") + r.effect;
-  return readable(fmt::format("No input within the limits would tell {} by one σ of the encoder ({} were "
-                              "tried; the best, {}, {}).",
-                              names, tried.size(), describe(tried.front().excitation),
-                              separations_of(tried.front()))) +
-         " Widen the limits where the drive may move farther (`next_experiment:` of the configuration), or "
-         "take another load or a finer encoder.";
-}
-
 }  // namespace
 }  // namespace internal::diagnosis
 
@@ -205,13 +175,7 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
                    [](const TriedInput& a, const TriedInput& b) { return a.worst > b.worst; });
   std::erase_if(next.tried, [](const TriedInput& t) { return std::isnan(t.worst); });
   keep_each_once(next.tried);
-  if (!next.proposes()) {
-    next.sentence = "No input within the limits can be played on these models.";
-    return next;
-  }
-  next.u = sample(next.tried.front().excitation, next.rate, samples, kSeed);
-  next.sentence = next.separates() ? proposal_of(next.tried.front(), next.duration)
-                                   : refusal_of(next.tried, {rivals.begin(), rivals.end()});
+  if (next.proposes()) next.u = sample(next.tried.front().excitation, next.rate, samples, kSeed);
   return next;
 }
 

@@ -17,7 +17,6 @@
 #include "diagnosis/tell_intervals.h"
 #include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
-#include "diagnosis/words.h"
 #include "gapscope/base/text.h"
 #include "gapscope/recording/supply.h"
 
@@ -111,10 +110,10 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
 /// NaN: there is no error budget.
 double band_of(const Findings& found) { return found.budget ? found.budget->band.hz : kNaN; }
 
-std::string place_left_by(const Study& study, const ReferenceModel& model, double band_hz) {
+MismatchPlace place_left_by(const Study& study, const ReferenceModel& model, double band_hz) {
   const double km = model.parameters[place::kTorqueConstant].value;
   const auto played = play(model, study.held_out, study.observer_hz, true);
-  return place_of(played, study.held_out, km, study.options.coordinates, nullptr, band_hz).headline;
+  return place_of(played, study.held_out, km, study.options.coordinates, nullptr, band_hz);
 }
 
 /// @param after the model that the step has led to
@@ -130,7 +129,7 @@ DiagnosisStep step_of(const Study& study, const FurtherStep& step, const ScoredM
   s.ranking = ranking_of(study, step.before, step.candidates, step.decision);
   if (!s.accepted) return s;
   s.group = names_of(step.decision.group);
-  s.remaining = place_left_by(study, after.fitted.model, band_hz);
+  s.left = place_left_by(study, after.fitted.model, band_hz);
   return s;
 }
 
@@ -244,7 +243,6 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
   if (added) tell_added(study, nominal, additions, told.fitted.model, d);
   tell_intervals(study, told.fitted, nominal.fitted.model, d);
   d.rivals = open_question(found, additions);
-  d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }
 
@@ -275,7 +273,6 @@ Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueS
   const TorqueSearch told{ladder.added, settled(study, ladder.after)};
   Diagnosis d = report_added(study, found, told.after, added_effects(*found.budget, told));
   mark_undecided(d);
-  d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }
 
@@ -289,7 +286,6 @@ Diagnosis report_help(const Study& study, const Findings& found) {
   d.added.front().shrink = d.mismatch.shrink, d.added.front().shrink_ci95 = d.mismatch.shrink_ci95;
   d.added.front().after_torque = d.mismatch.after_torque;
   d.rivals = open_question(found, {});
-  d.sentence = sentence_of(d, study.options.coordinates);
   return d;
 }
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/card_words.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
-#include "diagnosis/simulator_words.h"
 #include "diagnosis/stand_in.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/require.h"
+#include "gapscope/base/shared_unit.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -165,15 +164,11 @@ void Comparer::warn(const JointFit& fit, std::vector<std::string>& warnings) con
 
 /// Where the model is farther from the simulator than the simulator from the drive, no number of it says
 /// anything of what is between the two.
-void take_back_rows(SimulatorComparison& c, Coordinates coordinates) {
+void take_back_rows(SimulatorComparison& c) {
   for (SimulatorRow& row : c.rows) row.differs = false;
   c.shrink = c.shrink_all = c.errors.mended = c.errors.all_mended = kNaN;
   for (SimulatorTrace& t : c.traces) t.mended.clear();
-  c.sentence = fmt::format(
-      "Over the held-out input your simulator is {} rms off the drive, and the model fitted to it misses it "
-      "by "
-      "{}: no row is told of it.",
-      coordinates.thousandths(c.errors.simulator), coordinates.thousandths(c.errors.stand_in_miss));
+  c.state = ComparisonState::kNotFollowed;
 }
 
 SimulatorComparison Comparer::answer() {
@@ -183,7 +178,6 @@ SimulatorComparison Comparer::answer() {
   c.floor = floor_;
   const JointFit fit = best_joint_fit();
   if (!fit.usable()) {
-    c.sentence = "The model that has all effects of both could not be fitted to drive and simulator alike.";
     return c;
   }
   std::vector<PlannedRow> rows = planned_rows(fit);
@@ -191,18 +185,16 @@ SimulatorComparison Comparer::answer() {
     stop_point();
     measure({drive_, simulator_, floor_}, fit, rows[i]);
   });
+  c.dt = drive_.train.front().dt;
+  c.drive_floors = fit.drive.error / floor_, c.simulator_floors = fit.simulator.error / floor_;
   warn(fit, c.warnings);
   order(fit, rows);
   mend(fit, rows, c);
   if (c.errors.stand_in_miss > std::max(c.errors.simulator, kLeastRow * floor_)) {
-    take_back_rows(c, options_.coordinates);
+    take_back_rows(c);
     return c;
   }
-  const double dt = drive_.train.front().dt;
-  for (SimulatorRow& row : c.rows)
-    if (row.differs) row.sentence = row_sentence(row, c.rows, dt, options_.coordinates);
-  c.sentence =
-      sentence_beside(c, fit.drive.error / floor_, fit.simulator.error / floor_, options_.coordinates);
+  c.state = ComparisonState::kRead;
   return c;
 }
 

@@ -195,6 +195,22 @@ std::vector<AddedEffect> added_effects(const view::Budget& budget, const TorqueS
 
 }  // namespace internal::diagnosis
 
+const char* to_string(DiagnosisVerdict verdict) {
+  switch (verdict) {
+    case DiagnosisVerdict::kEffect:
+      return "effect";
+    case DiagnosisVerdict::kHelps:
+      return "helps";
+    case DiagnosisVerdict::kNone:
+      return "none";
+    case DiagnosisVerdict::kUnknown:
+      return "unknown";
+    case DiagnosisVerdict::kNotRun:
+      return "not run";
+  }
+  return "";
+}
+
 bool ErrorBudget::exists() const { return !std::isnan(band_hz); }
 
 double ErrorBudget::floor() const {

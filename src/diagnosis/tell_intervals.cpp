@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diagnosis/tell_budget.h"
+#include "diagnosis/told_facts.h"
 #include "gapscope/base/normal.h"
 
 namespace gapscope::internal::diagnosis {

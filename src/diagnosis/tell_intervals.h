@@ -13,7 +13,4 @@ namespace gapscope::internal::diagnosis {
 void tell_intervals(const Study& study, const FittedModel& fitted, const ReferenceModel& nominal,
                     Diagnosis& diagnosis);
 
-/// By how much of itself a number has moved; a phase by how much of a turn.
-double moved_by(const RefittedNumber& number);
-
 }  // namespace gapscope::internal::diagnosis

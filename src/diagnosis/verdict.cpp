@@ -8,7 +8,7 @@
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
 #include "diagnosis/rule.h"
-#include "diagnosis/words.h"
+#include "diagnosis/told_facts.h"
 #include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
@@ -30,7 +30,6 @@ void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis
     d.warnings.push_back(
         "the recordings that were fitted do not determine the free-form law: the first half of what was held "
         "out was fitted with them, and the second half judges it.");
-  d.sentence = sentence_of(d, study.options.coordinates);
 }
 
 /// Whether the drive lacks nothing that the recordings could show.
@@ -44,15 +43,14 @@ bool may_be_pieces(const Additions& added) {
   return added.effects.size() > 2 && !std::all_of(added.effects.begin(), added.effects.end(), same);
 }
 
-/// Verdict and sentence, once causes were left open.
-void tell_open_causes(Diagnosis& d, Coordinates coordinates) {
+/// The verdict, once causes were left open.
+void settle_verdict(Diagnosis& d) {
   if (!d.added.empty() && !d.added.front().established) d.verdict = DiagnosisVerdict::kHelps;
-  d.sentence = sentence_of(d, coordinates);
 }
 
-void open_all_causes(Diagnosis& d, Coordinates coordinates) {
+void open_all_causes(Diagnosis& d) {
   for (AddedEffect& a : d.added) a.established = false;
-  tell_open_causes(d, coordinates);
+  settle_verdict(d);
 }
 
 /// Whether another effect that was added has the level of the same simple law: the recordings determine their
@@ -167,7 +165,7 @@ Diagnosis report_effects(const Study& study, const Findings& found, const Additi
       !at_end && against && variable_of(*instead->after.entry) != variable_of(*added.effects.front().entry);
   if ((another && lead.score > -kRule.indistinct) ||
       (on_top && continues_one(*on_top, added) && !tells_its_shape(*on_top, added)))
-    open_all_causes(d, study.options.coordinates);
+    open_all_causes(d);
   tell_law(study, on_top, d);
   return d;
 }
@@ -180,14 +178,14 @@ bool continues_one(const LawSearch& law, const Additions& added) {
   });
 }
 
-void open_undetermined(Coordinates coordinates, Diagnosis& d) {
+void open_undetermined(Diagnosis& d) {
   const bool comes_no_nearer = d.mismatch.after > d.mismatch.before;
   const auto is_open = [&](const AddedEffect& a) {
     return comes_no_nearer || may_be_absent(a, d) || outlasts_motion(a, d);
   };
   if (std::none_of(d.added.begin(), d.added.end(), is_open)) return;
   for (AddedEffect& a : d.added) a.established = a.established && !is_open(a);
-  tell_open_causes(d, coordinates);
+  settle_verdict(d);
 }
 
 Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
@@ -208,13 +206,12 @@ Diagnosis verdict_on(const Study& study, const Findings& found, const Additions&
   return d;
 }
 
-void tell_stopped(const Study& study, const Additions& added, bool by_balance, Diagnosis& d) {
+void tell_stopped(const Additions& added, bool by_balance, Diagnosis& d) {
   if (d.verdict == DiagnosisVerdict::kNone) return;
   if (added.accepted && (at_floor(added.after) || added.explained) && !may_be_pieces(added)) return;
   d.stopped = true;
-  const Coordinates coordinates = study.options.coordinates;
   const bool is_cause = by_balance || d.verdict != DiagnosisVerdict::kEffect;
-  is_cause ? tell_open_causes(d, coordinates) : open_all_causes(d, coordinates);
+  is_cause ? settle_verdict(d) : open_all_causes(d);
 }
 
 }  // namespace gapscope::internal::diagnosis

@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "diagnosis/harmonics.h"
-#include "diagnosis/headline.h"
 #include "diagnosis/numbers.h"
+#include "diagnosis/place.h"
 #include "gapscope/base/decimals.h"
 #include "signals/encoder.h"
 #include "signals/local_motion.h"
@@ -197,7 +197,7 @@ std::vector<PatternStrength> patterns_of(const std::vector<Sample>& samples,
                                          const std::vector<Sample>& moving, const MismatchPlace& place,
                                          double line_explained) {
   return {{ResidualPattern::kAngle, line_explained},
-          {ResidualPattern::kDirection, one_way_words(place.direction).empty()
+          {ResidualPattern::kDirection, !lacking_way(place.direction)
                                             ? explained(
                                                   moving, [](const Sample& s) { return s.direction; }, 2)
                                             : 0.0},
@@ -260,7 +260,7 @@ MismatchPlace place_of(const std::vector<Playback>& played, const HeldOut& held_
   if (effect != nullptr && !std::isnan(cycles_of(*effect))) place.periods_per_turn = cycles_of(*effect);
   place.phase = densest_phase(place.mode);
   place.follows = followed_patterns(patterns_of(samples, moving, place, line_explained), effect);
-  place.headline = headline_of(place, coordinates, reverses(moving), effect != nullptr);
+  place.reverses = reverses(moving), place.explained = effect != nullptr;
   return place;
 }
 

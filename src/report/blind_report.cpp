@@ -137,12 +137,12 @@ void write_blind_report(const std::string& folder, const FigureFormats& formats)
         folder, figures,
         internal::report::implant_text(score, figures, internal::report::seal_sentence(score),
                                        internal::report::count_table(score)),
-        formats);
+        formats, {"Implants"});
     return;
   }
   const std::vector<internal::report::FigureData> figures = internal::report::blind_figures(score);
-  internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures),
-                                       formats);
+  internal::report::write_report_files(folder, figures, internal::report::blind_text(score, figures), formats,
+                                       {"Blind check"});
 }
 
 }  // namespace gapscope

@@ -98,7 +98,7 @@ void write_campaign_report(const std::string& folder, const FigureFormats& forma
   const CampaignSummary summary = read_campaign_summary(folder);
   const std::vector<internal::report::FigureData> figures = internal::report::campaign_figures(summary);
   internal::report::write_report_files(folder, figures, internal::report::campaign_text(summary, figures),
-                                       formats);
+                                       formats, {summary.name});
 }
 
 }  // namespace gapscope

@@ -195,7 +195,7 @@ void write_changes_report(const std::string& folder, const FigureFormats& format
   const DriveChanges all = read_drive_changes(folder);
   const std::vector<internal::report::FigureData> figures = {internal::report::gap_over_recordings(all)};
   internal::report::write_report_files(folder, figures, internal::report::comparison_text(all, figures),
-                                       formats);
+                                       formats, {"Reports of one drive"});
 }
 
 }  // namespace gapscope

@@ -153,8 +153,8 @@ std::string ranked_text(double share, double reach) {
 
 /// The floor of the ranking, which stands though what was added may have refuted a repetition.
 const char* ranked_by(const MismatchSize& size) {
-  return size.measure.starts_with("prediction") ? floor_name(FloorSource::kRepeatability)
-                                                : floor_name(size.floor_from);
+  return size.judged_by == JudgedBy::kPrediction ? floor_name(FloorSource::kRepeatability)
+                                                 : floor_name(size.floor_from);
 }
 
 /// How far the axis of the shares goes: to the floor, or, where the best candidate is far from it, to that.
@@ -244,7 +244,7 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
   if (figure.panels.empty())
     return missing_figure(figure.file, figure.title, "the error is alike everywhere");
-  figure.reading = "The correcting " + torque_word(r) + ": " + w.headline + ".";
+  figure.reading = "The correcting " + torque_word(r) + " " + w.headline + ".";
   return figure;
 }
 

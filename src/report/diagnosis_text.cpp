@@ -64,7 +64,7 @@ std::string measures_table(const DiagnosisResult& r) {
     if (std::isfinite(g.shrink_ci95.low))
       text += fmt::format(" (95 %: {} to {} %, for this kind of excitation)", percent(g.shrink_ci95.low),
                           percent(g.shrink_ci95.high));
-    text += fmt::format("; what remains is {} times the {}; place: {}.", rounded(g.remains),
+    text += fmt::format("; what remains is {} times the {}, and {}.", rounded(g.remains),
                         floor_name(g.floor_from), r.diagnosis.remaining.headline);
   }
   return text + "\n";

@@ -1,5 +1,7 @@
 #include "report/draw_figure.h"
 
+#include <fmt/format.h>
+
 #include "report/rich_text.h"
 #include "report/svg_canvas.h"
 
@@ -23,8 +25,8 @@ struct FigurePlan {
 constexpr double kTitleRow = 1.25;  // of its letters
 
 double title_height(const FigurePlan& plan) {
-  const double rows = static_cast<double>(std::max<std::size_t>(1, plan.title.size()));
-  return kTitleSize * (1.0 + kTitleRow * (rows - 1.0));
+  if (plan.title.empty()) return 0.0;
+  return kTitleSize * (1.0 + kTitleRow * (static_cast<double>(plan.title.size()) - 1.0));
 }
 
 std::string panel_title(const FigureData& figure, std::size_t i) {
@@ -70,7 +72,8 @@ FigurePlan plan_figure(const FigureData& figure, const Typesetter& typesetter) {
   for (const std::string& line : figure.lines)
     for (std::string& part : typesetter.wrapped(line, figure.width - 2 * kRim, kTextSize))
       plan.lines.push_back(part);
-  plan.title = typesetter.wrapped(figure.title, figure.width - 2 * kRim, kTitleSize, true);
+  if (!figure.title.empty())
+    plan.title = typesetter.wrapped(figure.title, figure.width - 2 * kRim, kTitleSize, true);
   double y = kRim + title_height(plan) + 0.65 * kTitleSize +
              1.35 * kTextSize * static_cast<double>(plan.lines.size());
   if (!plan.lines.empty()) y += kBetween;
@@ -134,6 +137,20 @@ std::string draw_as_svg(const FigureData& figure) {
   SvgCanvas canvas(typesetter);
   paint(canvas, figure, plan, typesetter);
   return canvas.document(figure.width, plan.height, plain_text(figure.title), plain_text(figure.reading));
+}
+
+std::string draw_for_page(const FigureData& figure) {
+  const Typesetter typesetter;
+  const FigurePlan plan = plan_figure(figure, typesetter);
+  SvgCanvas canvas(typesetter, figure.file.substr(0, figure.file.find('.')) + "_");
+  paint(canvas, figure, plan, typesetter);
+  for (std::size_t i = 0; i < plan.panels.size(); ++i) {
+    const PanelPlan& p = plan.panels[i];
+    const bool numbers = figure.panels[i].x.categories.empty() && figure.panels[i].y.categories.empty();
+    if (numbers) canvas.plot({plan.corners[i].x, plan.corners[i].y, p.width, p.height}, p.x, p.y);
+  }
+  return canvas.element(figure.width, plan.height, plain_text(figure.title),
+                        fmt::format(" style=\"--columns:{:.4g}\"", figure.width / kColumnPixels));
 }
 
 }  // namespace gapscope::internal::report

@@ -23,6 +23,9 @@ cv::Mat draw(const FigureData& figure);
 /// The same figure as an SVG of that size on paper, its text as text.
 std::string draw_as_svg(const FigureData& figure);
 
+/// The same as an element of a page, with the frames in which a script finds values.
+std::string draw_for_page(const FigureData& figure);
+
 /// Draws one panel with the upper left corner of its frame at `corner`.
 void draw_panel(Canvas& canvas, const Panel& panel, const PanelPlan& plan, Point corner, double left_margin,
                 const Typesetter& typesetter);

@@ -74,15 +74,16 @@ std::string row_html(const std::string& row, const std::string& element) {
 /// "![title](file.png)"
 bool is_picture(const std::string& line) { return line.starts_with("!["); }
 
+bool shows(const std::string& line, const std::string& file) { return line.ends_with("](" + file + ")"); }
+
+std::string figure_html(const Picture& p) { return "<figure>" + p.svg + "</figure>\n"; }
+
 std::string picture_html(const std::string& line, const std::vector<Picture>& pictures) {
   const std::size_t middle = line.rfind("](");
   const std::string title = line.substr(2, middle - 2),
                     file = line.substr(middle + 2, line.size() - middle - 3);
   for (const Picture& p : pictures)
-    if (p.file == file)
-      return fmt::format(
-          "<figure><img alt=\"{}\" style=\"--columns:{:.4g}\" src=\"data:image/png;base64,{}\"></figure>\n",
-          markup_text(title), p.columns, base64(p.png));
+    if (p.file == file) return figure_html(p);
   return fmt::format("<p>{}</p>\n", markup_text(title));
 }
 
@@ -97,7 +98,8 @@ std::string anchor(const std::string& title) {
 /// Goes through a report line by line.
 class Writer {
  public:
-  explicit Writer(const std::vector<Picture>& pictures) : pictures_(pictures) {}
+  Writer(const std::vector<Picture>& pictures, const std::string& head, const std::string& carrying)
+      : pictures_(pictures), head_(head), carrying_(carrying) {}
 
   void take(const std::string& line) {
     const bool item = line.starts_with("- "), row = line.starts_with("|");
@@ -111,6 +113,7 @@ class Writer {
     if (row) return void(rows_.push_back(line));
     if (line.starts_with("> "))
       return void(out_ += "<blockquote>" + html_line(line.substr(2)) + "</blockquote>\n");
+    if (is_picture(line) && carried_ && !carrying_.empty() && shows(line, carrying_)) return;  // above
     out_ += is_picture(line) ? picture_html(line, pictures_) : "<p>" + html_line(line) + "</p>\n";
   }
 
@@ -127,10 +130,18 @@ class Writer {
     open = false;
   }
 
-  void title(const std::string& text) { out_ += "<h1>" + html_line(text) + "</h1>\n"; }
+  void title(const std::string& text) { out_ += "<h1>" + html_line(text) + "</h1>\n" + head_; }
+
+  /// Once, where the card ends.
+  void carrying_picture() {
+    const auto at = std::ranges::find(pictures_, carrying_, &Picture::file);
+    if (at != pictures_.end() && !carried_) out_ += figure_html(*at);
+    carried_ = true;
+  }
 
   void section(const std::string& text) {
     close(section_, "</details>\n");
+    carrying_picture();
     const bool shown = text == "Warnings" || text == "Figures" || text == "Error budget";
     out_ += fmt::format("<details id=\"{}\"{}><summary>{}</summary>\n", anchor(text), shown ? " open" : "",
                         html_line(text));
@@ -154,26 +165,15 @@ class Writer {
   }
 
   const std::vector<Picture>& pictures_;
+  const std::string& head_;
+  const std::string& carrying_;
+  bool carried_ = false;
   std::string out_;
   std::vector<std::string> rows_;  ///< of the table that is being read
   bool list_ = false, section_ = false;
 };
 
 }  // namespace
-
-std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    const std::size_t digits = std::min<std::size_t>(4, bytes.size() - i + 1);
-    for (std::size_t k = 0; k < 4; ++k) out += k < digits ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
-  }
-  return out;
-}
 
 std::string html_line(const std::string& line) {
   std::string out;
@@ -184,8 +184,9 @@ std::string html_line(const std::string& line) {
   return out;
 }
 
-std::string html_body(const std::string& markdown, const std::vector<Picture>& pictures) {
-  Writer writer(pictures);
+std::string html_body(const std::string& markdown, const std::vector<Picture>& pictures,
+                      const std::string& head, const std::string& carrying) {
+  Writer writer(pictures, head, carrying);
   std::istringstream lines(markdown);
   for (std::string line; std::getline(lines, line);) writer.take(line);
   return writer.finished();

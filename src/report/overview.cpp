@@ -46,7 +46,7 @@ bool has_something_to_compare(const ReportView& view) {
 /// What the card says of the gap, without the asides that a heading has no room for.
 std::string first_line(const RunResult& run) {
   const bool card = run.answer && !run.answer->card.brief.gap.empty();
-  return replaced(card ? run.answer->card.brief.gap : headline(run), kWhichGap, "");
+  return card ? run.answer->card.brief.gap : headline(run);
 }
 
 }  // namespace

@@ -4,14 +4,11 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <ostream>
 
-#include "gapscope/base/whole_file.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
 #include "report/diagnosis_figures.h"
 #include "report/figures.h"
-#include "report/html_page.h"
 #include "report/report_files.h"
 #include "report/report_view.h"
 #include "report/story.h"
@@ -42,11 +39,8 @@ void write_report(const std::string& folder, const std::string& note, const Figu
     append(story.figures, internal::report::diagnosis_figures(*diagnosis));
   }
   const std::string text = internal::report::story_text(story);
-  const std::vector<internal::report::Picture> pictures =
-      internal::report::write_report_files(folder, story.figures, text, formats);
-  const std::string& name = run ? run->name : diagnosis->name;
-  write_whole_file(folder + "/report.html",
-                   [&](std::ostream& out) { out << internal::report::html_page(name, text, pictures); });
+  internal::report::write_report_files(folder, story.figures, text, formats,
+                                       internal::report::head_of(story));
 }
 
 }  // namespace gapscope

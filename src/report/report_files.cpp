@@ -68,26 +68,28 @@ std::string small_picture(FigureData figure) {
   return picture_bytes(figure, true);
 }
 
-std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
-                                        const std::string& text, const FigureFormats& formats) {
+void write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
+                        const std::string& text, const FigureFormats& formats, const PageHead& head) {
   std::vector<Picture> pictures(figures.size());
-  std::vector<std::string> drawings(figures.size());
+  std::vector<std::string> images(figures.size()), drawings(figures.size());
   const std::vector<std::size_t> order = largest_first(figures);
   std::atomic<std::size_t> next{0};
   parallel_for(figures.size(), 0, [&](std::size_t) {
     const std::size_t i = order[next++];
     if (!figures[i].missing.empty()) return;
-    pictures[i] = {figures[i].file, formats.small ? small_picture(figures[i]) : picture_bytes(figures[i]),
-                   figures[i].width / kColumnPixels};
-    if (formats.svg) drawings[i] = draw_as_svg(figures[i]);
+    FigureData figure = figures[i];
+    if (!formats.title) figure.title.clear();
+    images[i] = formats.small ? small_picture(figure) : picture_bytes(figure);
+    pictures[i] = {figures[i].file, draw_for_page(figures[i])};
+    if (formats.svg) drawings[i] = draw_as_svg(figure);
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const fs::path path = fs::path(folder) / figures[i].file;
-    put_or_remove(path, pictures[i].png);
+    put_or_remove(path, images[i]);
     put_or_remove(fs::path(path).replace_extension(".svg"), drawings[i]);
   }
   write_bytes(fs::path(folder) / "report.md", plain_markdown(text));
-  return pictures;
+  write_bytes(fs::path(folder) / "report.html", html_page(head, text, pictures));
 }
 
 }  // namespace gapscope::internal::report

@@ -5,7 +5,7 @@
 
 #include "gapscope/report/figure_formats.h"
 #include "report/figure_data.h"
-#include "report/html_text.h"
+#include "report/html_page.h"
 
 namespace gapscope::internal::report {
 
@@ -17,10 +17,9 @@ std::string picture_bytes(const FigureData& figure, bool tight = false);
 std::string small_picture(FigureData figure);
 
 /// Draws the figures into a folder, each as its PNG and what else is asked for, side by side on all cores,
-/// and writes report.md beside them; removes those of an earlier result that are missing now.
-/// @returns the pictures, those that are missing without a name
+/// and writes report.md and report.html beside them; removes those of an earlier result that are missing now.
 /// @throws std::runtime_error naming what cannot be written.
-std::vector<Picture> write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
-                                        const std::string& text, const FigureFormats& formats);
+void write_report_files(const std::string& folder, const std::vector<FigureData>& figures,
+                        const std::string& text, const FigureFormats& formats, const PageHead& head);
 
 }  // namespace gapscope::internal::report

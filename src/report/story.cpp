@@ -1,10 +1,12 @@
 #include "report/story.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
+#include "gapscope/base/text.h"
 #include "gapscope/results/drive_card.h"
 #include "report/diagnosis_figures.h"
 #include "report/glossary.h"
@@ -67,6 +69,66 @@ std::string card_text(const Card& card) {
   }
   const std::string full = card_in_full(card);
   return text + placeholders_of(text, "") + full + placeholders_of(full, text);
+}
+
+namespace {
+
+/// How far the gap is to be trusted.
+Badge badge_of(const Answer& a) {
+  if (a.trust == AnswerTrust::kGood) return {"good", "gap: good"};
+  return a.trust == AnswerTrust::kLimited ? Badge{"limited", "gap: limited"}
+                                          : Badge{"open", "gap: not known"};
+}
+
+/// How far a diagnosis goes.
+Badge badge_of(const Card& card, const Diagnosis& d) {
+  if (card.asks("next.do_not_rely") || card.asks("next.no_nearer"))
+    return {"bad", "model: do not rely on it yet"};
+  if (d.verdict == DiagnosisVerdict::kNone) return {"good", "model: nothing missing"};
+  if (d.verdict == DiagnosisVerdict::kHelps) return {"limited", "cause: open"};
+  if (d.verdict != DiagnosisVerdict::kEffect) return {"open", "cause: not known"};
+  const bool sure = contains(card.codes.cause, "cause.established");
+  return {sure ? "good" : "limited", sure ? "cause: established" : "cause: likely"};
+}
+
+/// "train.csv, 25 s": the recordings, and how long they are in all.
+std::string recordings_of(const RunResult& run) {
+  std::vector<std::string> files;
+  double seconds = 0.0;
+  for (const Recording& r : run.recordings) {
+    files.push_back("`" + r.file + "`");
+    seconds += r.dt * static_cast<double>(r.position().size());
+  }
+  return files.empty() ? "" : fmt::format("{}, {:.3g} s · ", fmt::join(files, ", "), seconds);
+}
+
+std::string recordings_of(const Diagnosis& d) {
+  std::vector<std::string> files;
+  for (const MismatchTrace& t : d.traces) files.push_back("`" + t.file + "`");
+  return files.empty() ? "" : fmt::format("held out: {} · ", fmt::join(files, ", "));
+}
+
+/// Of these the first that there is.
+std::string carrying_picture(const DriveStory& s) {
+  for (const char* file : {"diagnosis_traces.png", "lost_motion_loop.png", "overview.png"})
+    for (const FigureData& figure : s.figures)
+      if (figure.file == file && figure.missing.empty()) return file;
+  return "";
+}
+
+}  // namespace
+
+PageHead head_of(const DriveStory& s) {
+  const Card card = drive_card(s.run, s.diagnosis);
+  PageHead head{name_of(s)};
+  head.about = (s.run ? recordings_of(*s.run) : "") +
+               (s.diagnosis ? recordings_of(s.diagnosis->diagnosis) : "") + "gapscope " +
+               (s.run ? s.run->version : s.diagnosis->version);
+  if (const auto& answer = s.run ? s.run->answer : s.diagnosis->answer)
+    head.badges.push_back(badge_of(*answer));
+  if (s.diagnosis) head.badges.push_back(badge_of(card, s.diagnosis->diagnosis));
+  head.carrying = carrying_picture(s);
+  return head;
 }
 
 std::string story_text(const DriveStory& s) {

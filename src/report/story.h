@@ -6,6 +6,7 @@
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
+#include "report/html_page.h"
 
 namespace gapscope::internal::report {
 
@@ -20,6 +21,9 @@ struct DriveStory {
 
 /// The six lines that everybody wants to know, briefly and then in full.
 std::string card_text(const Card& card);
+
+/// What its page begins with: what it is of, how far the answers go, and the picture that carries them.
+PageHead head_of(const DriveStory& story);
 
 /// The text of report.md: the title, the card, then the detail, and what its words mean.
 std::string story_text(const DriveStory& story);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/markup_text.h"
+#include "report/rich_text.h"
 
 namespace gapscope::internal::report {
 namespace {
@@ -63,7 +64,7 @@ std::string SvgCanvas::clip_name(const Box& clip) {
   const auto found = std::find_if(clips_.begin(), clips_.end(), same);
   const auto number = found - clips_.begin();
   if (found == clips_.end()) clips_.push_back(clip);
-  return fmt::format("frame{}", number + 1);
+  return fmt::format("{}frame{}", prefix_, number + 1);
 }
 
 void SvgCanvas::marker(Point at, Marker marker, Colour colour, double size) {
@@ -110,6 +111,33 @@ void SvgCanvas::text(Point at, const std::string& markup, const TextStyle& style
   if (style.upwards) body_ += "</g>\n";
 }
 
+void SvgCanvas::plot(const Box& frame, const AxisPlan& x, const AxisPlan& y) {
+  const auto axis = [](const char* name, const AxisPlan& a) {
+    return fmt::format(" data-{0}=\"{1}\" data-{0}low=\"{2:.9g}\" data-{0}high=\"{3:.9g}\"", name,
+                       markup_text(plain_text(a.label)), a.range.low / a.factor, a.range.high / a.factor);
+  };
+  body_ +=
+      fmt::format("<rect class=\"plot\" {} fill=\"none\" pointer-events=\"all\" data-clip=\"{}\"{}{}/>\n",
+                  box_of(frame), clip_name(frame), axis("x", x), axis("y", y));
+}
+
+std::string SvgCanvas::clips() const {
+  std::string text = clips_.empty() ? "" : "<defs>\n";
+  for (std::size_t i = 0; i < clips_.size(); ++i)
+    text +=
+        fmt::format("<clipPath id=\"{}frame{}\"><rect {}/></clipPath>\n", prefix_, i + 1, box_of(clips_[i]));
+  return text + (clips_.empty() ? "" : "</defs>\n");
+}
+
+std::string SvgCanvas::element(double width, double height, const std::string& title,
+                               const std::string& more) const {
+  return fmt::format(
+             "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" font-family=\"DejaVu Sans, Verdana, "
+             "sans-serif\" stroke-linejoin=\"round\" fill=\"none\"{}>\n",
+             coordinate(width), coordinate(height), markup_text(title), more) +
+         clips() + body_ + "</svg>\n";
+}
+
 std::string SvgCanvas::document(double width, double height, const std::string& title,
                                 const std::string& reading) const {
   const double centimetres = 100.0 * kColumnWidth / kColumnPixels;
@@ -121,12 +149,8 @@ std::string SvgCanvas::document(double width, double height, const std::string& 
       coordinate(width * centimetres), coordinate(height * centimetres), coordinate(width),
       coordinate(height), markup_text(title));
   if (!reading.empty()) text += "<desc>" + markup_text(reading) + "</desc>\n";
-  if (!clips_.empty()) text += "<defs>\n";
-  for (std::size_t i = 0; i < clips_.size(); ++i)
-    text += fmt::format("<clipPath id=\"frame{}\"><rect {}/></clipPath>\n", i + 1, box_of(clips_[i]));
-  if (!clips_.empty()) text += "</defs>\n";
-  return text + fmt::format("<rect {} fill=\"#ffffff\"/>\n", box_of({0.0, 0.0, width, height})) + body_ +
-         "</svg>\n";
+  return text + clips() + fmt::format("<rect {} fill=\"#ffffff\"/>\n", box_of({0.0, 0.0, width, height})) +
+         body_ + "</svg>\n";
 }
 
 }  // namespace gapscope::internal::report

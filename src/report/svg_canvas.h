@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "report/canvas.h"
+#include "report/panel_plan.h"
 
 namespace gapscope::internal::report {
 
@@ -11,13 +12,22 @@ namespace gapscope::internal::report {
 /// font the reader has.
 class SvgCanvas : public Canvas {
  public:
-  explicit SvgCanvas(const Typesetter& typesetter) : typesetter_(typesetter) {}
+  /// @param prefix  of the names within the document: several stand in one page
+  explicit SvgCanvas(const Typesetter& typesetter, std::string prefix = "")
+      : typesetter_(typesetter), prefix_(std::move(prefix)) {}
 
   void fill(const Box& box, Colour colour) override;
   void line(const Polyline& points, const LineStyle& style) override;
   void line(const Polyline& points, const LineStyle& style, const Box& clip) override;
   void marker(Point at, Marker marker, Colour colour, double size) override;
   void text(Point at, const std::string& markup, const TextStyle& style) override;
+
+  /// A frame in which a script may find values: what its axes are called, and what their ends stand for.
+  void plot(const Box& frame, const AxisPlan& x, const AxisPlan& y);
+
+  /// The drawing as an element of a page, which scales it.
+  /// @param more  attributes beside it
+  std::string element(double width, double height, const std::string& title, const std::string& more) const;
 
   /// @param width, height  of the paper [px]; kColumnPixels of them are kColumnWidth wide
   /// @param title, reading  for those who cannot see the drawing
@@ -30,7 +40,10 @@ class SvgCanvas : public Canvas {
   void path(const Polyline& points, const LineStyle& style, const std::string& more);
   std::string clip_name(const Box& clip);
 
+  std::string clips() const;
+
   const Typesetter& typesetter_;
+  std::string prefix_;
   std::string body_;
   std::vector<Box> clips_;
 };

@@ -182,8 +182,10 @@ std::string cycles_reading(const DiagnosisResult& r) {
 
 /// Where the error goes with speed or direction, that is the picture of it.
 bool goes_with_speed(const DiagnosisResult& r) {
-  const std::string& place = r.diagnosis.where.headline;
-  return place.find("speed") != place.npos || place.find("direction of motion") != place.npos;
+  const std::vector<ResidualPattern>& follows = r.diagnosis.where.follows;
+  return std::ranges::any_of(follows, [](ResidualPattern p) {
+    return p == ResidualPattern::kSpeed || p == ResidualPattern::kDirection;
+  });
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "gapscope/diagnosis/answer.h"
+#include "gapscope/telling/answer.h"
 #include "results/json_archive.h"
 
 /// The answer as result.json and diagnosis.json have it.
@@ -33,6 +33,16 @@ void fields(Archive& archive, CardText& c) {
 }
 
 template <class Archive>
+void fields(Archive& archive, CardCodes& c) {
+  archive("gap", c.gap);
+  archive("mismatch", c.mismatch);
+  archive("place", c.place);
+  archive("cause", c.cause);
+  archive("helps", c.helps);
+  archive("next", c.next);
+}
+
+template <class Archive>
 void fields(Archive& archive, Answer& a) {
   archive("gap_rad", a.gap);
   archive("ci95_rad", a.ci95);
@@ -48,9 +58,12 @@ void fields(Archive& archive, Answer& a) {
   archive.addition("gap_at_most_rad", a.gap_at_most);
   archive.added("codes", a.codes);
   archive("sentence", a.sentence);
+  archive.addition("in_brief", a.in_brief);
   archive("next", a.next);
+  archive.added("next_codes", a.next_codes);
   archive.added("card", static_cast<CardText&>(a.card));
   archive.added("brief", a.card.brief);
+  archive.added("card_codes", a.card.codes);
   archive.addition("mismatch_torque_nm", a.card.torque);
   archive.addition("mismatch_percent", a.card.percent);
   archive.addition("mismatch_torque_after_nm", a.card.torque_after);

@@ -45,6 +45,10 @@ void fields(Archive& archive, RankedEffect& r) {
 template <class Archive>
 void fields(Archive& archive, MismatchSize& g) {
   archive("measure", g.measure);
+  archive.seldom_choice(
+      "judged_by", g.judged_by,
+      Words<JudgedBy>{{JudgedBy::kFreeRun, "free_run"}, {JudgedBy::kPrediction, "prediction"}},
+      JudgedBy::kFreeRun);
   archive("before_rad", g.before);
   archive("after_rad", g.after);
   archive("floor_rad", g.floor);
@@ -230,9 +234,23 @@ void fields(Archive& archive, MapsOf& m) {
   maps(archive, m.place, m.value);
 }
 
+/// Those of these names.
+inline std::vector<ResidualPattern> patterns_of(const std::vector<std::string>& codes) {
+  std::vector<ResidualPattern> patterns;
+  for (const std::string& code : codes)
+    for (int p = 0; p <= static_cast<int>(ResidualPattern::kMode); ++p)
+      if (to_string(static_cast<ResidualPattern>(p)) == code)
+        patterns.push_back(static_cast<ResidualPattern>(p));
+  return patterns;
+}
+
 template <class Archive>
 void fields(Archive& archive, MismatchPlace& p) {
   archive("headline", p.headline);
+  std::vector<std::string> codes;
+  for (const ResidualPattern pattern : p.follows) codes.emplace_back(to_string(pattern));
+  archive.seldom("codes", codes);
+  p.follows = patterns_of(codes);
   maps(archive, p, &MapShare::share);
   archive("periods_per_turn", p.periods_per_turn);
   MapsOf expected{p, &MapShare::expected};

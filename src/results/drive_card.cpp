@@ -61,7 +61,7 @@ void put_card(RunResult& run, const DiagnosisResult* beside) {
 
 void put_answer(DiagnosisResult& diagnosis, RunResult* beside) {
   Answer answer;
-  answer.sentence = "The gap was not estimated.";
+  go_on(answer, {{"gap.not_estimated.here"}}, {});
   if (beside != nullptr && beside->answer) answer = *beside->answer;
   if (std::optional<Answer> better = better_than(beside, diagnosis)) answer = *better;
   if (diagnosis.answer) answer.tolerance = diagnosis.answer->tolerance;

@@ -84,6 +84,7 @@ template <class Archive>
 void fields(Archive& archive, SimulatorDocument& d) {
   SimulatorComparison& c = d.comparison;
   archive("sentence", c.sentence);
+  archive.addition("in_brief", c.in_brief);
   verdict_field(archive, c.verdict);
   archive("effects", c.effects);
   archive("floor_rad", c.floor);

@@ -13,6 +13,7 @@
 #include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
 #include "gapscope/inspection/reach.h"
+#include "gapscope/telling/card.h"
 #include "run/checked.h"
 #include "run/doubtful_delay.h"
 #include "run/fitted_command.h"
@@ -73,22 +74,16 @@ bool takes_goals(const Configuration& c) {
   return c.recording && !c.recording->reading.columns.target.empty();
 }
 
-std::string other_goal(const std::vector<Rival>& rivals) {
-  return fmt::format(
-      "Record other goals (faster or slower ones, another amplitude), or the same ones at another gain of "
-      "the "
-      "controller, and hold that recording out: these do not tell {} from {}.",
-      readable(rivals[0].effect), readable(rivals[1].effect));
-}
-
 /// Where the recordings do not decide: what would.
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
   if (d.rivals.size() < 2) return;
-  if (takes_goals(c)) {
-    d.next_experiment.sentence = other_goal(d.rivals);
-    return;
-  }
+  const InputFacts input = c.input_facts();
+  const auto tell = [&](bool goals) {
+    const Told told = experiment_of(d.next_experiment, d.rivals, goals);
+    d.next_experiment.sentence = with_input_unit(in_words(told, Detail::kWhole, c.coordinates), input);
+  };
+  if (takes_goals(c)) return tell(true);
   const auto sought = [&] {
     return next_experiment(d.rivals, like, c.next_experiment, d.observer_hz, options.threads,
                            options.progress);
@@ -99,12 +94,7 @@ void ask_further(const Configuration& c, const MotorTrace& like, const Diagnosis
     return;
   }
   d.next_experiment = *std::move(next);
-  const InputFacts input = c.input_facts();
-  d.next_experiment.sentence = with_input_unit(d.next_experiment.sentence, input);
-  if (d.next_experiment.separates())
-    d.next_experiment.sentence += fmt::format(
-        " The models travel {} in it: see first that stops, speed and temperature of the drive allow that.",
-        c.coordinates.thousandths(d.next_experiment.tried.front().travel));
+  tell(false);
   for (TriedInput& tried : d.next_experiment.tried) tried.input = with_input_unit(tried.input, input);
 }
 
@@ -128,6 +118,7 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   if (!asked.fit.gap_seed) asked.fit.gap_seed = internal::run::read_gap(c, recordings);
   Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
                          internal::run::diagnosed_model(c, recordings.sought), asked);
+  put_into_words(d, c.coordinates);
   if (finish_requested()) {
     d.fitted.controller.reset();
     return d;
@@ -181,6 +172,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& o
           "stopped before the simulator was looked at to the end: nothing is told of it.");
   }
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
+  put_into_words(d, c.coordinates);  // once more: what would decide is known now
   return {std::move(result), std::move(recordings.train.recordings.front())};
 }
 

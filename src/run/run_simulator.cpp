@@ -13,6 +13,7 @@
 #include "gapscope/base/statistics.h"
 #include "gapscope/base/text.h"
 #include "gapscope/results/sha256.h"
+#include "gapscope/telling/card.h"
 #include "run/fitted_command.h"
 #include "signals/encoder.h"
 
@@ -166,6 +167,7 @@ SimulatorComparison compare_simulated(const Configuration& c, const DiagnosisRec
   const Diagnosis of_simulator = diagnose(simulated_train, simulated_held_out, diagnosed_model(c, {}), asked);
   SimulatorComparison compared = compare_with_simulator(
       {train, held_out, simulated_train, simulated_held_out, drive, of_simulator}, options);
+  put_into_words(compared, c.coordinates);
   compared.files = simulated.files;
   std::vector<std::string> warnings = simulated.warnings;
   for (const std::string& warning : of_simulator.warnings)

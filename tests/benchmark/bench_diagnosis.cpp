@@ -67,7 +67,7 @@ void measure(const char* effect) {
       seconds_of([&] { internal::diagnosis::fit_nominal(train, drive.sheet, options.fit, 3.0); });
   const double diagnosis = seconds_of([&] { d = diagnose(train, held_out, drive.sheet, options); });
   fmt::print("{:<24} {:>8.2f} s = {:6.1f} fits of {:.3f} s = {:6.1f} descents of {:.3f} s   {}\n", effect,
-             diagnosis, diagnosis / whole, whole, diagnosis / descent, descent, d.sentence);
+             diagnosis, diagnosis / whole, whole, diagnosis / descent, descent, to_string(d.verdict));
 }
 
 }  // namespace

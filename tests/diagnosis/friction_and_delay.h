@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/telling/card.h"
 
 namespace gapscope {
 

@@ -13,6 +13,7 @@
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
 #include "gapscope/base/random.h"
+#include "gapscope/telling/card.h"
 #include "support/thread_time.h"
 
 namespace gapscope::test {
@@ -161,7 +162,7 @@ StudyRow examine_question(const std::string& names, std::uint64_t seed) {
   StudyRow row;
   row.seed = seed, row.effect = names, row.rig = "paper", row.excitations = "s";
   row.seconds = thread_seconds() - begin;
-  row.details = next.sentence;
+  row.details = in_words(experiment_of(next, pair.rivals, false), Detail::kWhole, {});
   row.verdict = next.separates() ? "effect" : "unknown";
   if (!next.proposes()) return row;
   const TriedInput& best = next.tried.front();

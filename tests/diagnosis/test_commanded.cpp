@@ -197,8 +197,8 @@ Diagnosis diagnosed_sagging(double volt_step) {
 /// encoder's.
 TEST(CommandedServo, LacksNothingWhereItsSupplyIsReadInSteps) {
   const Diagnosis steps = diagnosed_sagging(kVoltStep), fine = diagnosed_sagging(1e-4);
-  EXPECT_EQ(steps.verdict, DiagnosisVerdict::kNone) << steps.sentence;
-  EXPECT_EQ(fine.verdict, DiagnosisVerdict::kNone) << fine.sentence;
+  EXPECT_EQ(steps.verdict, DiagnosisVerdict::kNone);
+  EXPECT_EQ(fine.verdict, DiagnosisVerdict::kNone);
   EXPECT_GT(steps.mismatch.floor, 3.0 * fine.mismatch.floor);
   EXPECT_GT(steps.mismatch.before, 1.3 * fine.mismatch.floor);
   EXPECT_THAT(steps.mismatch.floor_of, ::testing::HasSubstr("supply"));

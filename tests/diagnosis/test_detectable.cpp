@@ -34,7 +34,7 @@ bool names(const Diagnosis& d, const std::string& effect) {
 /// The amounts are foretold without a refit, and the diagnosis refits everything.
 TEST(Detectable, NothingMissingAlwaysTellsItThreeTimesAsMuchIsNamedAndAThirdIsNot) {
   const Diagnosis none = diagnosed({});
-  ASSERT_EQ(none.verdict, DiagnosisVerdict::kNone) << none.sentence;
+  ASSERT_EQ(none.verdict, DiagnosisVerdict::kNone);
   EXPECT_GT(none.detectable.size(), 10u);
   for (const DetectableEffect& e : none.detectable) EXPECT_NE(e.can_be_shown(), !e.why.empty()) << e.effect;
   const DetectableEffect& cogging = of(none, "cogging_torque");

@@ -38,23 +38,23 @@ DiagnosisOptions tempting() {
 }
 
 void expect_friction(const Diagnosis& d) {
-  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect);
   ASSERT_FALSE(d.effects.empty());
   EXPECT_EQ(d.effects.front(), "motor_coulomb_friction");
   EXPECT_EQ(d.mismatch.floor_from, FloorSource::kRepeatability);
   ASSERT_FALSE(d.ranking.empty());
   EXPECT_GE(d.ranking.front().shrink, 0.55);
   for (const char* wrong : {"backlash", "actuator_lag", "measurement_lag"}) {
-    EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), wrong), 0) << d.sentence;
-    EXPECT_EQ(std::count(d.group.begin(), d.group.end(), wrong), 0) << d.sentence;
+    EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), wrong), 0);
+    EXPECT_EQ(std::count(d.group.begin(), d.group.end(), wrong), 0);
   }
 }
 
 /// What Coulomb friction leaves of an axis whose friction and drive differ with the direction.
 void expect_asymmetry_next(const Diagnosis& d) {
   const std::vector<std::string> either = {"friction_asymmetry", "constant_load_torque"};
-  ASSERT_GE(d.effects.size(), 2u) << d.sentence;
-  EXPECT_EQ(std::count(either.begin(), either.end(), d.effects[1]), 1) << d.sentence;
+  ASSERT_GE(d.effects.size(), 2u);
+  EXPECT_EQ(std::count(either.begin(), either.end(), d.effects[1]), 1);
   EXPECT_TRUE(d.added[1].established);
   EXPECT_GT(d.added[1].shrink, 0.3);
   EXPECT_GE(d.mismatch.shrink, 0.85);
@@ -81,9 +81,9 @@ TEST(RealRecordings, WhereCoulombFrictionAloneDoesNotHelpItsAsymmetryIsNamed) {
                   last = part(whole, whole.size() - third, third);
   const MotorTrace train[] = {most.motor_trace()}, held_out[] = {last.motor_trace()};
   const Diagnosis d = diagnose(train, held_out, plain_axis(), tempting());
-  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect);
   ASSERT_FALSE(d.effects.empty());
-  EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), "friction_asymmetry"), 1) << d.sentence;
+  EXPECT_EQ(std::count(d.effects.begin(), d.effects.end(), "friction_asymmetry"), 1);
   EXPECT_GE(d.mismatch.shrink, 0.85);
 }
 

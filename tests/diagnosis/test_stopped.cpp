@@ -12,8 +12,8 @@
 #include "diagnosis/step.h"
 #include "diagnosis/verdict.h"
 #include "gapscope/base/interrupt.h"
-#include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
+#include "gapscope/telling/card.h"
 
 namespace gapscope {
 namespace {
@@ -55,22 +55,20 @@ TEST(StoppedDiagnosis, OfTheNominalModelAloneTellsTheSizeAndNamesNothing) {
   EXPECT_EQ(d.verdict, DiagnosisVerdict::kUnknown);
   EXPECT_TRUE(d.ranking.empty() && d.effects.empty() && d.detectable.empty());
   EXPECT_GT(d.mismatch.before, 2.0 * d.mismatch.floor);
-  EXPECT_THAT(d.sentence, HasSubstr("stopped before it named anything: the held-out error is"));
-  EXPECT_THAT(d.sentence, Not(HasSubstr("catalogue does not explain")));
   EXPECT_THAT(d.warnings, ::testing::Contains(HasSubstr("stopped before its end")));
   CardFacts facts;
   facts.diagnosis = &d;
   const Card card = card_of(facts);
-  EXPECT_EQ(card.cause, "Not told: the search was stopped before its end.");
-  EXPECT_EQ(card.helps, card.cause);
-  EXPECT_EQ(card.next, "Run `gapscope diagnose CONFIG` to its end.");
+  EXPECT_EQ(card.codes.cause, std::vector<std::string>{"cause.stopped"});
+  EXPECT_EQ(card.codes.helps, std::vector<std::string>{"helps.stopped"});
+  EXPECT_EQ(card.codes.next, std::vector<std::string>{"next.finish"});
 }
 
 TEST(StoppedDiagnosis, EndsItsPresentStepAndStandsWhereThatExplainsAll) {
   const Diagnosis d = asked_at("fitting motor_coulomb_friction, 1 of 1"), whole = asked_at("");
   EXPECT_FALSE(d.stopped) << "nothing was left to look for";
-  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect) << d.sentence;
-  EXPECT_EQ(d.sentence, whole.sentence);
+  EXPECT_EQ(d.verdict, DiagnosisVerdict::kEffect);
+  EXPECT_EQ(d.effects, whole.effects);
 }
 
 TEST(StoppedDiagnosis, GivesUpALaterStepAndEndsAFirstOne) {
@@ -101,15 +99,14 @@ TEST(StoppedDiagnosis, LeavesCausesOpenThatFurtherStepsCouldHaveTaken) {
   added.accepted = true;
   added.after.median_free = added.after.median_innovation = 20.0;
   Diagnosis open = found, balanced = found;
-  tell_stopped(study, added, false, open);
+  tell_stopped(added, false, open);
   EXPECT_TRUE(open.stopped);
   EXPECT_EQ(open.verdict, DiagnosisVerdict::kHelps);
   EXPECT_FALSE(open.added.front().established);
-  EXPECT_THAT(open.sentence, HasSubstr("the cause is open"));
-  tell_stopped(study, {}, true, balanced);
+  tell_stopped({}, true, balanced);
   EXPECT_TRUE(balanced.stopped && balanced.added.front().established) << "the torque balance saw its end";
   added.after.median_free = added.after.median_innovation = 1.0;
-  tell_stopped(study, added, false, found);
+  tell_stopped(added, false, found);
   EXPECT_FALSE(found.stopped) << "at the floor";
 }
 

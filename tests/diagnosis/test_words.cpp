@@ -1,55 +1,13 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "diagnosis/effect_starts.h"
 #include "diagnosis/tell_budget.h"
-#include "diagnosis/words.h"
 
 namespace gapscope {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
-
-std::string sentence(std::vector<std::string> effects) {
-  Diagnosis d;
-  d.verdict = DiagnosisVerdict::kEffect;
-  d.effects = std::move(effects);
-  d.mismatch.shrink = 0.9;
-  return internal::diagnosis::sentence_of(d, Coordinates::kRotation);
-}
-
-TEST(Words, AnEffectThatBringsASimplerOneSaysSo) {
-  EXPECT_THAT(sentence({"friction_asymmetry"}),
-              HasSubstr("lacks friction asymmetry (which contains motor Coulomb friction): with it"));
-  EXPECT_THAT(sentence({"motor_coulomb_friction", "friction_asymmetry"}), Not(HasSubstr("contains")));
-  EXPECT_THAT(sentence({"cogging_torque"}), Not(HasSubstr("contains")));
-}
-
-TEST(Words, WhatShrinksIsWhatIsAboveTheFloor) {
-  EXPECT_THAT(sentence({"cogging_torque"}), HasSubstr("shrinks by 90 % of what is above the floor"));
-}
-
-TEST(Words, AStribeckFrictionOfNegativeRatioIsFrictionThatIsLowerAtLowSpeed) {
-  Diagnosis d;
-  d.effects = {"stribeck_friction"};
-  d.mismatch.shrink = 0.9;
-  AddedEffect added;
-  added.effect = "stribeck_friction";
-  added.parameters = {{"level_nm", "N m", 1.0}, {"stiction_ratio", "-", -0.5}};
-  for (const auto verdict : {DiagnosisVerdict::kEffect, DiagnosisVerdict::kHelps}) {
-    d.verdict = verdict;
-    added.established = verdict == DiagnosisVerdict::kEffect;
-    added.parameters[1].value = -0.5, d.added = {added};
-    EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation),
-                HasSubstr("inverse Stribeck friction (lower at low speed)"));
-    added.parameters[1].value = 0.5, d.added = {added};
-    EXPECT_THAT(internal::diagnosis::sentence_of(d, Coordinates::kRotation), Not(HasSubstr("lower")));
-  }
-}
-
 /// A ladder of two lines of one law, of which the first was in the model before.
-TEST(Words, OfTwoLinesOfOneLawEachTellsItsOwnNumbers) {
+TEST(TellBudget, OfTwoLinesOfOneLawEachTellsItsOwnNumbers) {
   namespace view = internal::torque_view;
   const EffectEntry& cogging = *find_effect("cogging_torque");
   const view::Law& law = view::law("cogging_torque");
@@ -85,7 +43,7 @@ TEST(Words, OfTwoLinesOfOneLawEachTellsItsOwnNumbers) {
 }
 
 /// Of a budget whose second line nobody has added, the first one is told; without one, what the model has.
-TEST(Words, TheTorqueThatIsToldIsOfWhatWasAdded) {
+TEST(TellBudget, TheTorqueThatIsToldIsOfWhatWasAdded) {
   namespace view = internal::torque_view;
   const auto term = [](const char* name) {
     return view::Term{&view::law(name), kNaN, Eigen::VectorXd::Zero(1)};
@@ -111,7 +69,7 @@ TEST(Words, TheTorqueThatIsToldIsOfWhatWasAdded) {
 }
 
 /// A fast detent that the balance has at another period is none of its lines; a harmonic of it is one.
-TEST(Words, ALineOfAnotherPeriodIsNotWhatWasAdded) {
+TEST(TellBudget, ALineOfAnotherPeriodIsNotWhatWasAdded) {
   namespace view = internal::torque_view;
   const auto uncounted = [](double periods_per_turn) {
     const view::Term line{&view::law("cogging_torque"), periods_per_turn, Eigen::VectorXd::Zero(2)};

@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "gapscope/diagnosis/answer.h"
 #include "gapscope/inspection/inspection.h"
+#include "gapscope/telling/answer.h"
 #include "metamorphic/told_drive.h"
 
 namespace gapscope::metamorphic {

@@ -10,19 +10,11 @@
 namespace gapscope {
 namespace {
 
-using internal::report::base64;
 using internal::report::html_body;
 using internal::report::html_line;
 using internal::report::plain_markdown;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-TEST(Html, Base64IsThatOfRfc4648) {
-  const char* const kBytes[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar"};
-  const char* const kText[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
-  for (std::size_t i = 0; i < std::size(kBytes); ++i) EXPECT_EQ(base64(kBytes[i]), kText[i]);
-  EXPECT_EQ(base64("\xff\xfe\x01"), "//4B");
-}
 
 TEST(Html, ALineKeepsItsTextAndTakesNoMarkupOfItsOwn) {
   EXPECT_EQ(html_line("**a** < *b* & `c*d*` [w](#words)"),
@@ -65,13 +57,13 @@ TEST(Html, ANumberKeepsItsUnitBesideItAndASentenceIsBroken) {
 }
 
 TEST(Html, APictureSaysHowManyColumnsItsLettersAreMadeFor) {
-  EXPECT_THAT(html_body("![t](a.png)\n", {{"a.png", "x", 2.0}}), HasSubstr("style=\"--columns:2\""));
+  EXPECT_THAT(html_body("![t](a.png)\n", {{"a.png", "<svg>x</svg>"}}),
+              HasSubstr("<figure><svg>x</svg></figure>"));
   ScratchFolder scratch;
   write_run_result(scratch.path.string(), sample_run({.samples = 6000}));
   write_report(scratch.path.string());
   const std::string page = testing::text_of(scratch.path / "report.html");
-  EXPECT_THAT(page, HasSubstr("alt=\""
-                              "rig_p: overview\" style=\"--columns:2\""));
+  EXPECT_THAT(page, HasSubstr("style=\"--columns:2\""));
   EXPECT_THAT(page, HasSubstr("style=\"--columns:1\""));
 }
 
@@ -101,17 +93,41 @@ TEST(Html, OfAReportAsksTheNetworkAndOtherFilesForNothing) {
   const std::string page = testing::text_of(scratch.path / "report.html");
   const std::string report = testing::text_of(scratch.path / "report.md");
   std::size_t pictures = 0;
-  for (std::size_t at = page.find("src="); at != page.npos; at = page.find("src=", at + 1), ++pictures)
-    EXPECT_EQ(page.substr(at, 27), "src=\"data:image/png;base64,");
+  for (std::size_t at = page.find("<svg "); at != page.npos; at = page.find("<svg ", at + 1)) ++pictures;
   std::size_t listed = 0;
   for (std::size_t at = report.find("]("); at != report.npos; at = report.find("](", at + 1))
     listed += report[at + 2] != '#';
   EXPECT_GT(pictures, 5U);
   EXPECT_EQ(pictures, listed) << "every picture of report.md";
-  for (const char* asks : {"http:", "https:", "//cdn", "<link", "@import", "url(", "fetch(", "XMLHttp"})
+  for (const char* asks : {"http:", "https:", "//cdn", "<link", "@import", "src=", "fetch(", "XMLHttp"})
     EXPECT_THAT(page, Not(HasSubstr(asks)));
+  for (std::size_t at = page.find("url("); at != page.npos; at = page.find("url(", at + 1))
+    EXPECT_EQ(page[at + 4], '#') << "a place in the page itself";
   for (std::size_t at = page.find("href="); at != page.npos; at = page.find("href=", at + 1))
     EXPECT_EQ(page.substr(at, 7), "href=\"#");
+}
+
+TEST(Html, ThePictureThatCarriesTheAnswerStandsUnderTheCardAndOnce) {
+  const std::vector<internal::report::Picture> pictures = {{"a.png", "<svg>a</svg>"},
+                                                           {"b.png", "<svg>b</svg>"}};
+  const std::string body =
+      html_body("# t\n\n- x\n\n## Figures\n\n![a](a.png)\n![b](b.png)\n", pictures, "<p>head</p>\n", "b.png");
+  EXPECT_THAT(body, HasSubstr("<h1>t</h1>\n<p>head</p>\n<ul"));
+  EXPECT_THAT(body, HasSubstr("</ul>\n<figure><svg>b</svg></figure>\n<details"));
+  EXPECT_EQ(body.find("<svg>b"), body.rfind("<svg>b"));
+  EXPECT_LT(body.find("<details"), body.find("<svg>a"));
+}
+
+TEST(Html, SaysWhatItIsOfAndHowFarTheAnswerGoes) {
+  ScratchFolder scratch;
+  RunResult run = sample_run({.samples = 6000});
+  run.answer.emplace().trust = AnswerTrust::kLimited;
+  write_run_result(scratch.path.string(), run);
+  write_report(scratch.path.string());
+  const std::string page = testing::text_of(scratch.path / "report.html");
+  EXPECT_THAT(page, HasSubstr("<span class=\"badge limited\">gap: limited</span>"));
+  EXPECT_THAT(page, HasSubstr("<p class=\"about\">"));
+  EXPECT_THAT(page, HasSubstr("<rect class=\"plot\"")) << "what the cursor reads";
 }
 
 }  // namespace

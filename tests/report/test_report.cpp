@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/diagnosis/answer.h"
 #include "gapscope/report/report.h"
+#include "gapscope/telling/answer.h"
 #include "report/markdown.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"

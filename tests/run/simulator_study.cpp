@@ -10,6 +10,7 @@
 
 #include "gapscope/base/text.h"
 #include "gapscope/diagnosis/simulator.h"
+#include "gapscope/telling/card.h"
 #include "run/simulated_pair.h"
 
 namespace gapscope::test {
@@ -64,7 +65,9 @@ Compared compared(const SimulatedPair& p, DiagnosisOptions options) {
   const Diagnosis drive = diagnose(train, held_out, p.sheet, options);
   const Diagnosis simulator = diagnose(sim_train, sim_held_out, p.sheet, options);
   const auto laid = [&](const Diagnosis& d, const Diagnosis& s) {
-    return compare_with_simulator({train, held_out, sim_train, sim_held_out, d, s}, options);
+    SimulatorComparison c = compare_with_simulator({train, held_out, sim_train, sim_held_out, d, s}, options);
+    put_into_words(c, {});
+    return c;
   };
   return {laid(drive, simulator), laid(with_the_truth(drive, p, &Knob::drive, &Knob::simulator),
                                        with_the_truth(simulator, p, &Knob::simulator, &Knob::drive))};

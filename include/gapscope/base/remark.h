@@ -33,6 +33,8 @@ class Remark {
   /// Those of all parts, each once: "few_passages/load_hits_motor". The same where the same is said of other
   /// numbers.
   std::string codes() const;
+  bool has_code(const std::string& code) const;  ///< of any part
+  Remark behind(const std::string& code) const;  ///< what follows the first part of that code
   std::vector<Value> values() const;
   std::string text(Coordinates coordinates = {}) const;
   /// Keeps the words for these coordinates alone: text() gives them from now on, whatever it is asked for.

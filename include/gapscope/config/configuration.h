@@ -9,10 +9,10 @@
 #include "gapscope/config/implant_config.h"
 #include "gapscope/config/model_config.h"
 #include "gapscope/config/setting.h"
-#include "gapscope/diagnosis/card.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/acceleration_bound.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "gapscope/telling/card.h"
 
 namespace gapscope {
 

@@ -50,9 +50,14 @@ struct MismatchMeasure {
   double floor = kNaN;   ///< NaN: there is none
 };
 
+/// What the held-out motion is judged by: free runs that are restarted, or where a drive repeats too badly
+/// for them, the predictions of an observer.
+enum class JudgedBy { kFreeRun, kPrediction };
+
 /// How large the mismatch is and how far it shrinks; the first of the measures.
 struct MismatchSize {
   std::string measure;
+  JudgedBy judged_by = JudgedBy::kFreeRun;
   double before = kNaN, after = kNaN, floor = kNaN;  ///< [rad]
   FloorSource floor_from = FloorSource::kEncoder;
   std::string floor_of;                              ///< what it was read from, in words: recordings, periods
@@ -123,12 +128,14 @@ struct MapShare {
 
 /// Where the mismatch of the nominal model is: the correcting torque, spread over seven quantities.
 struct MismatchPlace {
-  std::string headline;                  ///< the following in words
+  std::string headline;                  ///< the following in words; whoever tells it fills it in
   std::optional<ContactPhase> phase;     ///< of contact where it is densest; nothing: there is but one
   std::vector<ResidualPattern> follows;  ///< what orders it, that of a found effect first
   std::vector<MapShare> mode, direction, speed, angle, input, frequency, time;
   double periods_per_turn = kNaN;  ///< of a residual that repeats with the motor angle [1/rev]
   MapShare behind_impacts;         ///< at impacts and 33 ms behind them; told where nothing else orders it
+  bool reverses = true;            ///< its means forward and backward have opposite signs
+  bool explained = false;  ///< by an effect: then how it is spread over the directions is the motion's
 };
 
 /// A torque that repeats with the motor angle, -A sin(N x1 + phase), in what the model leaves.
@@ -151,7 +158,8 @@ struct DiagnosisStep {
   std::vector<std::string> group;    ///< all that it cannot be told from, itself included; empty unless added
   std::vector<std::string> dropped;  ///< earlier effects that it made superfluous
   MismatchSize mismatch;             ///< of this step alone
-  std::string remaining;  ///< place of what the model leaves after it, in words; empty unless added
+  std::string remaining;             ///< the following in words; empty unless added
+  MismatchPlace left;                ///< where what the model leaves after it is; not stored
   std::vector<RankedEffect> ranking;
 };
 
@@ -180,7 +188,7 @@ struct MismatchTrace {
 /// What the diagnosis says. A default-built one says that it was not run.
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;
-  std::string sentence = "diagnose() was not called.";
+  std::string sentence;  ///< all of this in a sentence or two; whoever tells it fills it in
   bool stopped = false;  ///< the search was asked to finish before its end; what it says is what it had found
   /// The model with what was added has the numbers of the torque balance: a refit to the motion, in which
   /// something is still missing, would bend them. Of the others it has those of the nominal fit
@@ -228,12 +236,15 @@ struct Diagnosis {
   std::optional<ClosedLoop> closed_loop;           ///< where a controller is at work that is known
   std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added
 
-  std::string brief_report() const;  ///< one line: log, command line
-
   /// Whether the next recording's motion would show what was added, too: the interval of the shrink is above
   /// zero.
   bool is_shown_by_motion() const { return mismatch.shrink_ci95.low > 0.0; }
 };
+
+/// Whether the sizes of a mismatch in torque are of what is missing. Those of the torque balance always are,
+/// where it has all that was added. The observer's correcting torque holds the encoder's noise in its whole
+/// band: it tells what is left only where it falls as far as the motion's error does.
+bool is_told_in_torque(const Diagnosis& diagnosis);
 
 /// `diagnosis:` – what is known of the drive beforehand, and what is asked beside the verdict.
 struct DiagnosisKnowledge {

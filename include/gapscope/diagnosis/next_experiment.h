@@ -47,7 +47,7 @@ struct TriedInput {
 
 /// What to record next. A default-built one proposes nothing.
 struct NextExperiment {
-  std::string sentence;
+  std::string sentence;                 ///< the following in words; whoever tells it fills it in
   double rate = kNaN, duration = kNaN;  ///< [Hz], [s]
   std::vector<TriedInput> tried;        ///< best first
   std::vector<double> u;                ///< samples of the best one

@@ -72,9 +72,17 @@ struct SimulatorErrors {
   double all_mended = kNaN;     ///< drive − the stand-in with every row that differs mended
 };
 
+/// What the comparison could read. Not fitted: no model with the effects of both follows the two alike. Not
+/// followed: the model fitted to the simulator is farther from it than it is from the drive.
+enum class ComparisonState { kNotFitted, kNotFollowed, kRead };
+
 /// What the drive has and the user's simulator has not, and the other way round.
 struct SimulatorComparison {
-  std::string sentence;
+  std::string sentence;  ///< all of this in words; whoever tells it fills it in, as those of the rows
+  std::string in_brief;  ///< the same in one sentence, for the card
+  ComparisonState state = ComparisonState::kNotFitted;
+  double drive_floors = kNaN, simulator_floors = kNaN;   ///< what the model with all effects of both leaves
+  double dt = kNaN;                                      ///< sampling interval [s]
   DiagnosisVerdict verdict = DiagnosisVerdict::kNotRun;  ///< of the simulator's recording
   std::vector<std::string> effects;  ///< that its diagnosis has added to the nominal model
   double floor = kNaN;               ///< of the instrument, the larger of both recordings' [rad]

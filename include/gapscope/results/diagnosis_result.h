@@ -6,10 +6,10 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/base/input_facts.h"
-#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/diagnosis/simulator.h"
 #include "gapscope/results/stored_table.h"
+#include "gapscope/telling/answer.h"
 
 namespace gapscope {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "gapscope/diagnosis/card.h"
 #include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
+#include "gapscope/telling/card.h"
 
 namespace gapscope {
 

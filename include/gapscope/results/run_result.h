@@ -7,13 +7,13 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/file_hash.h"
 #include "gapscope/base/input_facts.h"
-#include "gapscope/diagnosis/answer.h"
 #include "gapscope/diagnosis/comparison.h"
 #include "gapscope/diagnosis/second_encoder.h"
 #include "gapscope/recording/recording.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/results/stored_table.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "gapscope/telling/answer.h"
 
 namespace gapscope {
 

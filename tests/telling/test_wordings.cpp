@@ -1,0 +1,119 @@
+// Every sentence that a card can say, with made-up facts: told/test_wordings.txt is to be read aloud.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "gapscope/telling/statement.h"
+#include "support/told.h"
+
+namespace gapscope {
+namespace {
+
+/// What stands for a fact where a wording names it.
+Fact example_of(const std::string& key) {
+  static const std::map<std::string, Fact> facts = [] {
+    std::map<std::string, Fact> all;
+    const auto put = [&](Fact fact) { all.emplace(fact.key, std::move(fact)); };
+    for (const char* length : {"least", "play", "lost", "small", "large", "limit", "scatter", "off", "given",
+                               "travel", "held", "miss", "all", "all_mended", "mended"})
+      put(number(length, 0.0187, "rad"));
+    put(number("gap", 0.0187, "rad", {0.0185, 0.0189}));
+    put(number("other", 0.0191, "rad", {0.0188, 0.0194}));
+    put(number("read", 0.0191, "rad", {0.0188, 0.0194}));
+    for (const char* torque : {"missing", "before", "after"}) put(number(torque, 0.0153, "N m"));
+    for (const char* share : {"share", "share_after", "fall", "low", "high", "p", "drift"})
+      put(percent(share, 7.2));
+    for (const char* count : {"times", "floors", "bound", "ratio", "to_small", "to_large", "band", "turns",
+                              "duration", "factor", "more", "rows"})
+      put(ratio(count, 3.0));
+    put(names("causes", std::vector<ToldName>{{"motor Coulomb friction"},
+                                              {"inverse Stribeck friction", "lower at low speed"}}));
+    put(names("open", std::vector<ToldName>{{"input delay", "it may as well be actuator lag"}}));
+    put(names("added", std::vector<ToldName>{{"motor Coulomb friction", "20.5 N"},
+                                             {"cogging torque", "every 2.5 mm; 2 N"}}));
+    put(names("left", std::vector<ToldName>{{"4 N with motor Coulomb friction", "20.5 N"},
+                                            {"2 N with cogging torque", "2 N"}}));
+    put(names("group", std::vector<std::string>{"cogging torque", "load unbalance"}));
+    put(names("rivals", std::vector<std::string>{"input delay", "actuator lag"}));
+    put(names("by", std::vector<std::string>{"6 σ if input delay is the cause", "9 σ if actuator lag is"}));
+    for (const auto& [key, text] : std::map<std::string, std::string>{
+             {"why", "The model misses 31 % of what the torque does to the motion."},
+             {"reason", "no impact stands out of the motion"},
+             {"rejected", "the fitted model is rejected"},
+             {"how", "`gapscope detect CONFIG`"},
+             {"per", "rad/s²"},
+             {"doubt", "x1 is held over two rows"},
+             {"floor", "the encoder's noise"},
+             {"refitted", "refitted"},
+             {"has", "viscous friction"},
+             {"source", "input applies"},
+             {"input", "212 mN·m"},
+             {"measure", "free run restarted every 0.5 s"},
+             {"judged", "free run"},
+             {"error", "free-run error"},
+             {"parts", "recordings"},
+             {"where", "is periodic in the motor angle with 24 cycles per turn"},
+             {"fit", "97.5 %"},
+             {"x", "x1"},
+             {"rival", "Stribeck friction"},
+             {"suspect", "cogging torque"},
+             {"nearest", "cogging torque"},
+             {"first", "cogging torque"},
+             {"row", "it has no cogging torque, where the drive has 2 N"},
+             {"variable", "speed"},
+             {"law", "friction_curve"},
+             {"brief", "motor inertia 0.114 → 0.154 kg m² and 3 more"},
+             {"changes", "motor inertia 0.114 → 0.154 kg m² (95 %: 0.153 to 0.155)"},
+             {"way", "smaller"},
+             {"estimate", "{estimate: true}"},
+             {"auto", "{bound: auto}"},
+             {"tolerance", "{torque_percent: 1}"},
+             {"motion", "other speeds, other loads"},
+             {"swap", "swap `file` and `held_out`"},
+             {"addition", "cogging torque"},
+             {"format", "mjcf"},
+             {"what", "it"},
+             {"lost", "cogging torque"},
+             {"truth", "input delay"},
+             {"advice", "record anew with x1 of every row"}})
+      all.insert_or_assign(key, word(key, text));
+    return all;
+  }();
+  const auto found = facts.find(key);
+  return found == facts.end() ? word(key, "<" + key + ">") : found->second;
+}
+
+std::string with_examples(const Wording& w, const char* wording) {
+  Statement s{w.code};
+  const std::string text = wording;
+  std::set<std::string> seen;
+  for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
+    const std::string key = text.substr(at + 1, text.find_first_of("}#:?", at) - at - 1);
+    if (key != "torque" && seen.insert(key).second) s.facts.push_back(example_of(key));
+  }
+  return in_words(s, wording, Coordinates());
+}
+
+TEST(Wordings, AreAllReadAloud) {
+  for (const Wording& w : wordings()) {
+    if (*w.brief != '\0') EXPECT_TOLD(std::string(w.code) + ": " + with_examples(w, w.brief));
+    if (w.whole != nullptr) EXPECT_TOLD(std::string(w.code) + " in full: " + with_examples(w, w.whole));
+  }
+}
+
+TEST(Wordings, HaveACodeEach) {
+  std::set<std::string> codes;
+  for (const Wording& w : wordings()) EXPECT_TRUE(codes.insert(w.code).second) << w.code;
+}
+
+TEST(Wordings, LeaveOutWhatIsNotThere) {
+  const Statement bare{
+      "error.free_run",
+      {number("before", 0.33, "rad"), number("after", kNaN, "rad"), number("travel", 0.247, "rad")}};
+  EXPECT_TOLD(in_words({bare}, Detail::kBrief, Coordinates::kTranslation));
+  EXPECT_THROW(in_words({{"no.such.code"}}, Detail::kBrief, Coordinates()), std::logic_error);
+}
+
+}  // namespace
+}  // namespace gapscope
