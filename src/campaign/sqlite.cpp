@@ -91,7 +91,7 @@ void Database::require_tables_alone() {
 void Database::write_whole() { recording::write_whole(handle_); }
 
 void Database::require_sound() {
-  Statement check(*this, "PRAGMA quick_check(1)");
+  SqlStatement check(*this, "PRAGMA quick_check(1)");
   std::string answer;
   if (check.step()) check.read(answer);
   if (answer != "ok")
@@ -99,44 +99,44 @@ void Database::require_sound() {
                                          printable(answer, 200)));
 }
 
-Statement::Statement(Database& database, const std::string& sql) : database_(database) {
+SqlStatement::SqlStatement(Database& database, const std::string& sql) : database_(database) {
   check(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement_, nullptr));
 }
 
-Statement::~Statement() { sqlite3_finalize(statement_); }
+SqlStatement::~SqlStatement() { sqlite3_finalize(statement_); }
 
-void Statement::check(int code) const {
+void SqlStatement::check(int code) const {
   if (code != SQLITE_OK) database_.fail();
 }
 
-void Statement::bind(const std::string& text) {
+void SqlStatement::bind(const std::string& text) {
   check(
       sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
 }
-void Statement::bind(double value) {
+void SqlStatement::bind(double value) {
   ++bound_;
   check(std::isnan(value) ? sqlite3_bind_null(statement_, bound_)
                           : sqlite3_bind_double(statement_, bound_, value));
 }
-void Statement::bind(std::int64_t value) { check(sqlite3_bind_int64(statement_, ++bound_, value)); }
-void Statement::bind(const std::optional<bool>& value) {
+void SqlStatement::bind(std::int64_t value) { check(sqlite3_bind_int64(statement_, ++bound_, value)); }
+void SqlStatement::bind(const std::optional<bool>& value) {
   ++bound_;
   check(value ? sqlite3_bind_int(statement_, bound_, *value ? 1 : 0) : sqlite3_bind_null(statement_, bound_));
 }
 
-bool Statement::step() {
+bool SqlStatement::step() {
   read_ = 0;
   const int code = sqlite3_step(statement_);
   if (code != SQLITE_ROW && code != SQLITE_DONE) database_.fail();
   return code == SQLITE_ROW;
 }
 
-void Statement::reset() {
+void SqlStatement::reset() {
   check(sqlite3_reset(statement_));
   bound_ = 0;
 }
 
-void Statement::read(std::string& text) {
+void SqlStatement::read(std::string& text) {
   const int column = read_++;
   const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
   text.assign(bytes == nullptr ? "" : bytes,
@@ -146,20 +146,20 @@ void Statement::read(std::string& text) {
                       "is damaged (a cell holds no text), expected one that `campaign` wrote");
 }
 /// NULL, or a number; SQLite would take any text for one.
-int Statement::number_column() {
+int SqlStatement::number_column() {
   const int column = read_++, type = sqlite3_column_type(statement_, column);
   if (type != SQLITE_NULL && type != SQLITE_INTEGER && type != SQLITE_FLOAT)
     throw ConfigError(database_.file(),
                       "is damaged (a cell holds no number), expected one that `campaign` wrote");
   return column;
 }
-void Statement::read(double& value) {
+void SqlStatement::read(double& value) {
   const int column = number_column();
   value = sqlite3_column_type(statement_, column) == SQLITE_NULL ? kNaN
                                                                  : sqlite3_column_double(statement_, column);
 }
-void Statement::read(std::int64_t& value) { value = sqlite3_column_int64(statement_, number_column()); }
-void Statement::read(std::optional<bool>& value) {
+void SqlStatement::read(std::int64_t& value) { value = sqlite3_column_int64(statement_, number_column()); }
+void SqlStatement::read(std::optional<bool>& value) {
   const int column = number_column();
   value.reset();
   if (sqlite3_column_type(statement_, column) != SQLITE_NULL)

@@ -32,12 +32,12 @@ class Database {
 };
 
 /// A prepared statement. Values are bound, and columns read, from left to right.
-class Statement {
+class SqlStatement {
  public:
-  Statement(Database& database, const std::string& sql);
-  ~Statement();
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
+  SqlStatement(Database& database, const std::string& sql);
+  ~SqlStatement();
+  SqlStatement(const SqlStatement&) = delete;
+  SqlStatement& operator=(const SqlStatement&) = delete;
 
   void bind(const std::string& text);
   void bind(double value);  ///< NaN: NULL

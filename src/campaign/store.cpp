@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using internal::campaign::Database;
-using internal::campaign::Statement;
+using internal::campaign::SqlStatement;
 
 std::string store_in(const std::string& folder) { return (fs::path(folder) / "results.sqlite").string(); }
 
@@ -94,7 +94,7 @@ std::string insertion(const char* into, const std::vector<std::string>& columns)
 }
 
 struct Binder {
-  Statement& to;
+  SqlStatement& to;
   template <class T>
   void operator()(const char*, T& value) {
     to.bind(value);
@@ -102,7 +102,7 @@ struct Binder {
 };
 
 struct ColumnReader {
-  Statement& from;
+  SqlStatement& from;
   template <class T>
   void operator()(const char*, T& value) {
     from.read(value);
@@ -142,7 +142,7 @@ struct CampaignStore::Connection {
   std::unique_ptr<ProcessLock> lock;
   Database database;
   std::mutex mutex;
-  std::unique_ptr<Statement> insert_run, insert_timing;
+  std::unique_ptr<SqlStatement> insert_run, insert_timing;
 
   Connection(const std::string& file, std::unique_ptr<ProcessLock> held)
       : lock(std::move(held)), database(file, lock != nullptr) {
@@ -170,10 +170,10 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
   database.write_whole();
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
-  connection_->insert_run = std::make_unique<Statement>(
+  connection_->insert_run = std::make_unique<SqlStatement>(
       database, insertion("INSERT INTO runs", internal::campaign::run_columns(header)));
   // Of a run whose row was lost the time may still be there.
-  connection_->insert_timing = std::make_unique<Statement>(
+  connection_->insert_timing = std::make_unique<SqlStatement>(
       database, insertion("INSERT OR REPLACE INTO timing", {"run", "model_free_s", "reference_s", "run_s"}));
 }
 
@@ -188,7 +188,7 @@ const std::string& CampaignStore::file() const { return connection_->database.fi
 
 std::set<std::uint64_t> CampaignStore::done() const {
   std::set<std::uint64_t> runs;
-  Statement select(connection_->database, "SELECT run FROM runs");
+  SqlStatement select(connection_->database, "SELECT run FROM runs");
   for (std::int64_t run = 0; select.step();) {
     select.read(run);
     runs.insert(static_cast<std::uint64_t>(run));
@@ -198,7 +198,7 @@ std::set<std::uint64_t> CampaignStore::done() const {
 
 void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,
                          bool configurations) const {
-  Statement select(connection_->database, selection(connection_->database, header_, configurations));
+  SqlStatement select(connection_->database, selection(connection_->database, header_, configurations));
   ColumnReader reader{select};
   while (select.step()) {
     stop_point();
@@ -224,13 +224,13 @@ void CampaignStore::add(CampaignRow row, const CampaignTiming& timing) {
   GAPSCOPE_REQUIRE(row.point.size() == header_.axes.size() + header_.drawn.size());
   const std::lock_guard lock(connection_->mutex);
   connection_->database.execute("BEGIN IMMEDIATE");
-  Statement& run = *connection_->insert_run;
+  SqlStatement& run = *connection_->insert_run;
   run.bind(static_cast<std::int64_t>(row.run));
   for (const std::string& value : row.point) run.bind(value);
   Binder binder{run};
   fields(binder, row);
   run.execute();
-  Statement& time = *connection_->insert_timing;
+  SqlStatement& time = *connection_->insert_timing;
   time.bind(static_cast<std::int64_t>(row.run));
   time.bind(timing.model_free_s);
   time.bind(timing.reference_s);

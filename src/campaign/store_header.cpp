@@ -50,14 +50,14 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 void write_fact(Database& database, const char* key, const std::string& value) {
-  Statement insert(database, "INSERT INTO campaign VALUES (?, ?)");
+  SqlStatement insert(database, "INSERT INTO campaign VALUES (?, ?)");
   insert.bind(std::string(key));
   insert.bind(value);
   insert.execute();
 }
 
 std::string fact(Database& database, const std::string& file, const char* key) {
-  Statement select(database, "SELECT value FROM campaign WHERE key = ?");
+  SqlStatement select(database, "SELECT value FROM campaign WHERE key = ?");
   select.bind(std::string(key));
   if (!select.step())
     throw ConfigError(file, fmt::format("has no {}, expected the store of a campaign", key));
@@ -78,7 +78,7 @@ std::uint64_t number_fact(Database& database, const std::string& file, const cha
 }
 
 void write_axes(Database& database, const CampaignHeader& h) {
-  Statement insert(database, "INSERT INTO axes VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SqlStatement insert(database, "INSERT INTO axes VALUES (?, ?, ?, ?, ?, ?, ?)");
   const auto write = [&](const std::string& path, const char* kind, const CampaignAxis& axis) {
     insert.bind(path);
     insert.bind(std::string(kind));
@@ -102,8 +102,8 @@ void require_values(const CampaignAxis& axis, const std::string& file) {
 }
 
 void read_axes(Database& database, const std::string& file, CampaignHeader& h) {
-  Statement select(database,
-                   "SELECT path, kind, logarithmic, low, high, count, listed FROM axes ORDER BY rowid");
+  SqlStatement select(database,
+                      "SELECT path, kind, logarithmic, low, high, count, listed FROM axes ORDER BY rowid");
   while (select.step()) {
     CampaignAxis axis;
     std::string kind, listed;
@@ -137,7 +137,7 @@ struct FieldNames {
 };
 
 bool has_tables(Database& database) {
-  Statement select(database, "SELECT name FROM sqlite_master WHERE name = 'campaign'");
+  SqlStatement select(database, "SELECT name FROM sqlite_master WHERE name = 'campaign'");
   return select.step();
 }
 
@@ -154,7 +154,7 @@ std::vector<std::string> run_columns(const CampaignHeader& header) {
 }
 
 bool is_empty(Database& database) {
-  Statement count(database, "PRAGMA page_count");
+  SqlStatement count(database, "PRAGMA page_count");
   std::int64_t pages = 0;
   if (count.step()) count.read(pages);
   return pages == 0;
@@ -215,7 +215,7 @@ CampaignHeader read_header(Database& database, const std::string& file) {
 std::vector<std::string> missing_columns(Database& database) {
   std::vector<std::string> missing;
   for (const std::string name : kAddedColumns) {
-    Statement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
+    SqlStatement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
     select.bind(name);
     if (!select.step()) missing.push_back(name);
   }

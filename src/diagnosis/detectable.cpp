@@ -23,7 +23,7 @@ std::vector<const EffectEntry*> turning_with_nothing(const Study& study, const R
 }
 
 /// Whether the ladder of the balance, not the score of the motion, decides: see climb() in diagnose.cpp.
-bool decided_in_torque(const Study& study, const Findings& found, const ReferenceModel& model) {
+bool decided_in_torque(const Study& study, const FirstSearch& found, const ReferenceModel& model) {
   if (!found.budget || !found.budget->says_most) return false;
   return study.repeats_badly() ||
          !at_floor(judge(nullptr, {model, {}, 0.0, {}}, study.held_out, study.observer_hz));
@@ -50,7 +50,7 @@ DetectableEffect detectable_from(const EffectEntry& entry, const std::vector<dou
   return d;
 }
 
-void tell_detectable(const Study& study, const Findings& found, Diagnosis& d) {
+void tell_detectable(const Study& study, const FirstSearch& found, Diagnosis& d) {
   study.options.progress("foretelling what would have been named");
   const std::vector<const EffectEntry*> asked = asked_of(study, d.fitted);
   d.detectable = decided_in_torque(study, found, d.fitted) ? detectable_in_torque(study, found, asked)

@@ -8,11 +8,11 @@ namespace gapscope::internal::diagnosis {
 ///
 /// The rule that would have named it is foretold: that of the torque balance where the model is off the floor
 /// and the balance says most of the input, else that of the simulator.
-void tell_detectable(const Study& study, const Findings& found, Diagnosis& diagnosis);
+void tell_detectable(const Study& study, const FirstSearch& found, Diagnosis& diagnosis);
 
 /// The same for the torque balance, see torque_view::LeastNamed.
 /// @param asked in the order of the catalogue
-std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Findings& found,
+std::vector<DetectableEffect> detectable_in_torque(const Study& study, const FirstSearch& found,
                                                    const std::vector<const EffectEntry*>& asked);
 
 /// The same for the simulator: the amount at which the score S of the model, on the recordings as the effect

@@ -68,7 +68,7 @@ bool is_in(const view::Model& model, const EffectEntry& entry) {
 
 }  // namespace
 
-std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Findings& found,
+std::vector<DetectableEffect> detectable_in_torque(const Study& study, const FirstSearch& found,
                                                    const std::vector<const EffectEntry*>& asked) {
   const view::Budget& budget = *found.budget;
   const ReferenceModel& nominal = found.before.fitted.model;

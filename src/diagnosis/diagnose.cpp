@@ -82,7 +82,7 @@ bool take_repeatability(Study& study, const ScoredModel& nominal) {
 
 /// The nominal model from the drive of the best candidate, where that leads to a far better fit: the first
 /// one had ended in a minimum that the best candidate, not its effect, has left.
-std::optional<ScoredModel> nominal_near(const Study& study, const Findings& found) {
+std::optional<ScoredModel> nominal_near(const Study& study, const FirstSearch& found) {
   if (found.candidates.empty() || !std::isfinite(found.candidates.front().score)) return {};
   const ReferenceModel& best = found.candidates.front().fitted.model;
   ReferenceModel model = found.before.fitted.model;
@@ -98,8 +98,8 @@ const EffectEntry* excluded_parent(const Study& study, const std::vector<ScoredM
   return std::ranges::find(study.catalogue, parent) == study.catalogue.end() ? parent : nullptr;
 }
 
-Findings first_look(Study& study) {
-  Findings found;
+FirstSearch first_look(Study& study) {
+  FirstSearch found;
   study.work_before = *study.options.fit.work;
   study.options.progress("fitting the nominal model");
   found.before = scored_nominal(study);
@@ -141,7 +141,7 @@ Findings first_look(Study& study) {
 }
 
 /// Mean square that the best fit leaves of what was fitted [floor²].
-double least_left(const Findings& found) {
+double least_left(const FirstSearch& found) {
   double least = found.before.fitted.mean_cost;
   for (const ScoredModel& c : found.candidates) least = std::min(least, c.fitted.mean_cost);
   return least;
@@ -149,7 +149,7 @@ double least_left(const Findings& found) {
 
 /// Whether the recordings that were fitted are explained while those held out are not: they do not ask for
 /// what the others need, neither of the drive nor of the effect.
-bool asked_too_little(const Study& study, const Findings& found) {
+bool asked_too_little(const Study& study, const FirstSearch& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const ScoredModel& best = found.candidates.front();
   if (at_floor(best)) return false;
@@ -160,14 +160,14 @@ bool asked_too_little(const Study& study, const Findings& found) {
 }
 
 /// The same of a search that has found nothing, where the others show far more than the fitted ones do.
-bool asked_far_too_little(const Study& study, const Findings& found) {
+bool asked_far_too_little(const Study& study, const FirstSearch& found) {
   if (found.candidates.empty() || !may_fit_half_of_the_held_out(study)) return false;
   const double least = least_left(found);
   return least < kRule.near_floor && leaves_far_more_held_out(found.candidates.front(), least);
 }
 
 /// What the fitted recordings leave open, for the reader.
-std::string undetermined(const Findings& found) {
+std::string undetermined(const FirstSearch& found) {
   const std::string left = fmt::format(
       "what was fitted does not determine the model: it leaves {:.3g} encoder floors on what was held out",
       found.alone);
@@ -177,11 +177,11 @@ std::string undetermined(const Findings& found) {
 
 /// With half of what is held out among what is fitted; nothing where the other half is not worth a judgement,
 /// and the study stays as it was.
-std::optional<Findings> look_wider(Study& study, const Findings& found) {
+std::optional<FirstSearch> look_wider(Study& study, const FirstSearch& found) {
   const std::vector<MotorTrace> train = study.train;
   const HeldOut held_out = study.held_out;
   fit_half_of_the_held_out(study);
-  Findings wider = first_look(study);
+  FirstSearch wider = first_look(study);
   if (wider.candidates.empty() || study.repeats_badly()) {
     study.train = train, study.held_out = held_out, study.observer_hz = kMeasure.slow_hz;
     return {};
@@ -191,7 +191,7 @@ std::optional<Findings> look_wider(Study& study, const Findings& found) {
 }
 
 /// The ladder of the torque balance, unless one effect explains all that the encoder shows.
-TorqueSearch climb(const Study& study, const Findings& found) {
+TorqueSearch climb(const Study& study, const FirstSearch& found) {
   if (!found.budget || !found.budget->says_most) return {};
   if (found.candidates.empty() && at_floor(found.before)) return {};
   if (found.decision.accepted && at_floor(found.candidates.front()) && !study.repeats_badly()) return {};
@@ -201,7 +201,7 @@ TorqueSearch climb(const Study& study, const Findings& found) {
 
 /// Whether the torque balance says most of the input and knows nothing that helps, while what the observers
 /// favour stays off the floor: then they have only found numbers that hide what is missing.
-bool contradicted(const Findings& found, const Additions& added) {
+bool contradicted(const FirstSearch& found, const Additions& added) {
   return found.budget && found.budget->says_most && !at_floor(added.after) && !added.explained;
 }
 
@@ -215,15 +215,15 @@ void require_driven(const Study& study, const ScoredModel& model) {
 
 }  // namespace
 
-Findings investigate(Study& study) {
-  Findings found = first_look(study);
+FirstSearch investigate(Study& study) {
+  FirstSearch found = first_look(study);
   if (!finish_requested() && asked_too_little(study, found))
-    if (std::optional<Findings> wider = look_wider(study, found)) return std::move(*wider);
+    if (std::optional<FirstSearch> wider = look_wider(study, found)) return std::move(*wider);
   return found;
 }
 
 EffectSearch search_effects(Study& study) {
-  Findings found = investigate(study);
+  FirstSearch found = investigate(study);
   count_first_step(study, found.candidates.size());
   TorqueSearch ladder = climb(study, found);
   study.work_before = *study.options.fit.work;
@@ -235,7 +235,7 @@ EffectSearch search_effects(Study& study) {
   if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
     return {std::move(found), std::move(added), {}};
-  if (std::optional<Findings> wider = look_wider(study, found)) {
+  if (std::optional<FirstSearch> wider = look_wider(study, found)) {
     study.work_before = *study.options.fit.work;
     added = add_further(study, *wider);
     found = std::move(*wider);

@@ -9,7 +9,7 @@
 namespace gapscope::internal::diagnosis {
 
 /// What the steps came to.
-struct Findings {
+struct FirstSearch {
   ScoredModel before;
   double alone =
       kNaN;  ///< held-out size without any held-out recording in the fit, where they are in it [floor]
@@ -24,6 +24,6 @@ struct Findings {
 ///
 /// Where the fitted recordings are explained and the others are not, they ask too little: the first half of
 /// what is held out is then fitted with them, and only the second half judges.
-Findings investigate(Study& study);
+FirstSearch investigate(Study& study);
 
 }  // namespace gapscope::internal::diagnosis

@@ -31,7 +31,7 @@ ScoredModel judged_by(const ModelEvidence& e) {
 
 }  // namespace
 
-StepEvidence evidence_of(const Study& study, const Findings& found) {
+StepEvidence evidence_of(const Study& study, const FirstSearch& found) {
   StepEvidence e;
   e.nominal = evidence_of(found.before, found.before);
   e.alone = found.alone;

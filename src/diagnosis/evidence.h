@@ -5,6 +5,6 @@
 
 namespace gapscope::internal::diagnosis {
 
-StepEvidence evidence_of(const Study& study, const Findings& found);
+StepEvidence evidence_of(const Study& study, const FirstSearch& found);
 
 }  // namespace gapscope::internal::diagnosis

@@ -137,7 +137,7 @@ void judge_again(const Study& study, ScoredModel& model) {
 }
 
 /// What was found before is judged like what was found since.
-void keep_wider(const Study& study, const Findings& found, std::size_t steps_before, Additions& a) {
+void keep_wider(const Study& study, const FirstSearch& found, std::size_t steps_before, Additions& a) {
   for (std::size_t i = 0; i < steps_before; ++i) {
     judge_again(study, a.steps[i].before);
     for (ScoredModel& c : a.steps[i].candidates) judge_again(study, c);
@@ -167,7 +167,7 @@ std::optional<ScoredModel> without_empty_effect(const Study& study, const Scored
 }
 
 /// Forward from a candidate of the first step.
-Additions follow(Study study, const Findings& found, const ScoredModel& first,
+Additions follow(Study study, const FirstSearch& found, const ScoredModel& first,
                  std::vector<const EffectEntry*> group) {
   Additions a;
   a.after = first;
@@ -215,11 +215,11 @@ Additions follow(Study study, const Findings& found, const ScoredModel& first,
 
 }  // namespace
 
-const ScoredModel& nominal_of(const Findings& found, const Additions& a) {
+const ScoredModel& nominal_of(const FirstSearch& found, const Additions& a) {
   return a.wider ? a.wider->nominal : found.before;
 }
 
-const ModelEffect& first_effect(const Findings& found, const Additions& a) {
+const ModelEffect& first_effect(const FirstSearch& found, const Additions& a) {
   const EffectEntry* entry = a.effects.front().entry;
   const auto& effects = a.after.fitted.model.effects;
   if (const auto in = std::ranges::find(effects, entry, &ModelEffect::entry); in != effects.end()) return *in;
@@ -240,7 +240,7 @@ bool borne_out(const ScoredModel& nominal, const Additions& a) {
          shrink_of(nominal.median_free, a.after.median_free) > 1.0 - left;
 }
 
-std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most) {
+std::vector<const ScoredModel*> branches(const FirstSearch& found, std::size_t most) {
   std::vector<const ScoredModel*> chosen;
   for (const ScoredModel& c : found.candidates)
     if (chosen.size() < most && worth_following(found.before, c)) chosen.push_back(&c);
@@ -255,7 +255,7 @@ std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most
   return chosen;
 }
 
-Additions add_further(const Study& study, const Findings& found) {
+Additions add_further(const Study& study, const FirstSearch& found) {
   const Decision& sure = found.decision;
   const auto& ranked = found.candidates;
   if (ranked.empty()) return {};

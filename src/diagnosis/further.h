@@ -47,21 +47,21 @@ struct Additions {
 ///
 /// A step that begins with what was fitted explained, but not what is held out, asks the recordings that
 /// know: the first half of what is held out is then fitted, too.
-Additions add_further(const Study& study, const Findings& found);
+Additions add_further(const Study& study, const FirstSearch& found);
 
 /// Whether nothing is left to add to them.
 bool leaves_nothing(const Additions& additions);
 
 /// The model without any effect, by what the additions are judged by.
-const ScoredModel& nominal_of(const Findings& found, const Additions& additions);
+const ScoredModel& nominal_of(const FirstSearch& found, const Additions& additions);
 
 /// The effect that was found first, as all steps have left it; where it is in none of their models, as the
 /// first step has fitted it alone.
-const ModelEffect& first_effect(const Findings& found, const Additions& additions);
+const ModelEffect& first_effect(const FirstSearch& found, const Additions& additions);
 
 /// All steps.
 struct EffectSearch {
-  Findings found;
+  FirstSearch found;
   Additions added;
   TorqueSearch ladder;  ///< where it leads: nothing else is added then
 };
@@ -72,7 +72,8 @@ EffectSearch search_effects(Study& study);
 /// First steps to follow where the best is unsure in itself: those that gain on what is held out, then those
 /// that explain most of what was fitted. Where half of the cause is still missing, the numbers of the other
 /// half are often so wrong that no held-out recording shows its worth.
-std::vector<const ScoredModel*> branches(const Findings& found, std::size_t most = SearchEffort{}.branches);
+std::vector<const ScoredModel*> branches(const FirstSearch& found,
+                                         std::size_t most = SearchEffort{}.branches);
 
 /// Whether further steps have shown that an unsure first one was right: they end at the floor, or are clear
 /// themselves and leave hardly a part. A first step that is there alone has been decided upon.

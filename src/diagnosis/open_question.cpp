@@ -26,7 +26,7 @@ std::vector<Rival> rivals_of(const std::vector<ScoredModel>& candidates, const S
 
 }  // namespace
 
-std::vector<Rival> open_question(const Findings& found, const Additions& added) {
+std::vector<Rival> open_question(const FirstSearch& found, const Additions& added) {
   std::vector<Rival> rivals;
   if (!(added.accepted && !found.decision.accepted))  // else a later step has decided it
     rivals = rivals_of(found.candidates, found.before, found.decision);

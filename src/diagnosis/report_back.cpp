@@ -96,7 +96,7 @@ std::vector<MismatchTrace> traces_of(const Study& study, const std::vector<Playb
   return traces;
 }
 
-DiagnosisVerdict verdict_of(const Findings& found, const Additions& added) {
+DiagnosisVerdict verdict_of(const FirstSearch& found, const Additions& added) {
   if (found.candidates.empty() && at_floor(found.before)) return DiagnosisVerdict::kNone;
   return added.accepted ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kUnknown;
 }
@@ -108,7 +108,7 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
 }
 
 /// NaN: there is no error budget.
-double band_of(const Findings& found) { return found.budget ? found.budget->band.hz : kNaN; }
+double band_of(const FirstSearch& found) { return found.budget ? found.budget->band.hz : kNaN; }
 
 MismatchPlace place_left_by(const Study& study, const ReferenceModel& model, double band_hz) {
   const double km = model.parameters[place::kTorqueConstant].value;
@@ -202,7 +202,7 @@ void mark_undecided(Diagnosis& d) {
 
 /// What does not depend on how the additions were found.
 /// @param first the effect that was added first, as it was fitted alone; nullptr: none
-void tell_models(const Study& study, const Findings& found, const ScoredModel& nominal,
+void tell_models(const Study& study, const FirstSearch& found, const ScoredModel& nominal,
                  const ScoredModel& after, const ModelEffect* first, Diagnosis& d) {
   const bool added = first != nullptr;
   d.observer_hz = study.observer_hz;
@@ -232,7 +232,7 @@ void tell_models(const Study& study, const Findings& found, const ScoredModel& n
 
 }  // namespace
 
-Diagnosis report_back(const Study& study, const Findings& found, const Additions& additions) {
+Diagnosis report_back(const Study& study, const FirstSearch& found, const Additions& additions) {
   Diagnosis d;
   d.verdict = verdict_of(found, additions);
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
@@ -249,7 +249,7 @@ Diagnosis report_back(const Study& study, const Findings& found, const Additions
 namespace {
 
 /// The model with what was added, in order.
-Diagnosis report_added(const Study& study, const Findings& found, const ScoredModel& after,
+Diagnosis report_added(const Study& study, const FirstSearch& found, const ScoredModel& after,
                        std::vector<AddedEffect> added) {
   Diagnosis d;
   d.verdict = added.front().established ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kHelps;
@@ -269,14 +269,14 @@ Diagnosis report_added(const Study& study, const Findings& found, const ScoredMo
 
 }  // namespace
 
-Diagnosis report_ladder(const Study& study, const Findings& found, const TorqueSearch& ladder) {
+Diagnosis report_ladder(const Study& study, const FirstSearch& found, const TorqueSearch& ladder) {
   const TorqueSearch told{ladder.added, settled(study, ladder.after)};
   Diagnosis d = report_added(study, found, told.after, added_effects(*found.budget, told));
   mark_undecided(d);
   return d;
 }
 
-Diagnosis report_help(const Study& study, const Findings& found) {
+Diagnosis report_help(const Study& study, const FirstSearch& found) {
   const ScoredModel best = settled(study, found.candidates.front());
   AddedEffect a;
   a.effect = best.entry->name;

@@ -15,7 +15,7 @@ namespace gapscope::internal::diagnosis {
 namespace {
 
 /// Whether the best candidate shrinks the held-out error, though its cause stays open.
-bool best_helps(const Study& study, const Findings& found) {
+bool best_helps(const Study& study, const FirstSearch& found) {
   return !found.candidates.empty() &&
          shrink_of(found.before.median_free, found.candidates.front().median_free) > 0.0 &&
          std::isfinite(found.candidates.front().score) && !found.decision.group.empty() &&
@@ -33,7 +33,7 @@ void tell_law(const Study& study, const std::optional<LawSearch>& law, Diagnosis
 }
 
 /// Whether the drive lacks nothing that the recordings could show.
-bool lacks_nothing(const Findings& found) { return found.candidates.empty() && at_floor(found.before); }
+bool lacks_nothing(const FirstSearch& found) { return found.candidates.empty() && at_floor(found.before); }
 
 /// Whether effects could be one function of one variable in pieces: three and more, not all of that variable.
 bool may_be_pieces(const Additions& added) {
@@ -148,7 +148,7 @@ bool tells_its_shape(const LawSearch& law, const Additions& added) {
 /// them, or comes to the floor like three of several variables, they are no causes. Their cause stays open
 /// where one of another variable than the first does nearly as well, or one of a variable of theirs takes
 /// what they leave. Neither holds of the series that the only effect begins.
-Diagnosis report_effects(const Study& study, const Findings& found, const Additions& added) {
+Diagnosis report_effects(const Study& study, const FirstSearch& found, const Additions& added) {
   const ScoredModel& nominal = nominal_of(found, added);
   const bool at_end = at_floor(added.after) || added.explained;
   const auto instead = at_end && !may_be_pieces(added) ? std::nullopt : search_last_resort(study, nominal);
@@ -188,7 +188,7 @@ void open_undetermined(Diagnosis& d) {
   settle_verdict(d);
 }
 
-Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
+Diagnosis verdict_on(const Study& study, const FirstSearch& found, const Additions& added,
                      const TorqueSearch& ladder, bool explains) {
   if (!ladder.added.empty()) {
     Diagnosis d = report_ladder(study, found, ladder);

@@ -9,7 +9,7 @@ namespace gapscope::internal::diagnosis {
 /// What the searches come to: effects that are causes, what helps, or a law of last resort for what none of
 /// them explains.
 /// @param explains false: what was added leaves the motion unexplained
-Diagnosis verdict_on(const Study& study, const Findings& found, const Additions& added,
+Diagnosis verdict_on(const Study& study, const FirstSearch& found, const Additions& added,
                      const TorqueSearch& ladder, bool explains);
 
 /// Whether a free-form law on top of effects is of a variable of theirs: they are a part of a function of it.

@@ -54,8 +54,7 @@ std::string model_free_sentence(const RunResult& run) {
     default:
       if (g.lost_motion.read())
         return "Without a model: " + lost_motion_sentence(g.lost_motion, unit) + " Verdict: inconclusive.";
-      return "Without a model: inconclusive, " + g.reason.text() +
-             (g.reason.text().ends_with(".") ? "" : ".");
+      return "Without a model: inconclusive (" + g.reason.text() + ").";
   }
 }
 

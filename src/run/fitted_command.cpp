@@ -51,12 +51,19 @@ std::string numbers_written(const ControllerModel& model) {
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
+/// Whether a key of the controller is among what a remark names.
+bool names_controller(const Remark& remark) {
+  return std::ranges::any_of(remark.values(), [](const Remark::Value& value) {
+    const auto* keys = std::get_if<std::string>(&value);
+    return keys != nullptr && keys->find("controller.") != keys->npos;
+  });
+}
+
 /// What the fit says of the controller's numbers: with which others they change.
 std::string confounded_with(const FitSummary& found, Coordinates coordinates) {
   std::string said;
   for (const Remark& warning : found.warnings)
-    if (const std::string text = warning.text(coordinates); text.find("controller.") != std::string::npos)
-      said += "; " + text;
+    if (names_controller(warning)) said += "; " + warning.text(coordinates);
   return said;
 }
 

@@ -130,7 +130,7 @@ Said denied(const Findings& f) {
     return a;
   }
   Said a;
-  a.told = {{"none.model_free", {length("least", limit), percent("share", 100.0 * limit / f.travel)}}};
+  a.told = {{"none.model_free", {length("least", limit), per_cent("share", 100.0 * limit / f.travel)}}};
   a.from = AnswerSource::kModelFree;
   a.trust = none_by_both(f) ? AnswerTrust::kGood : AnswerTrust::kLimited;
   if (none_by_both(f))
@@ -242,7 +242,8 @@ Statement step_to_a_reading(const GapEstimate& g) {
   const bool bank = g.reason.has_code("nothing_reads");
   const Remark reason = bank ? g.reason.behind("nothing_reads") : g.reason;
   const bool advises = reason.code() == "gap_uncertain" || reason.code() == "few_passages";
-  if (const Remark advice = advises ? reason.behind(reason.code()) : reason; advises || bank)
+  if (const Remark advice = advises ? reason.behind(reason.code()) : reason;
+      (advises || bank) && !advice.empty())
     return {"next.advice", {word("advice", clause(advice))}};
   return {"next.free_motion"};
 }

@@ -79,7 +79,7 @@ std::optional<Answer> beside_denial(std::optional<Answer> told, const ModelGap& 
   Answer a;
   a.from = AnswerSource::kModelFree, a.trust = AnswerTrust::kLimited;
   go_on(a,
-        {{"none.model_free", {least, percent("share", kNaN)}},
+        {{"none.model_free", {least, per_cent("share", kNaN)}},
          {"gap.diagnosis.contradicts", {number("other", gap.value, "rad", gap.ci95)}}},
         coordinates);
   return a;

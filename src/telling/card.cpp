@@ -61,7 +61,7 @@ Told torque_tolerance(const CardFacts& f, const Card& card) {
            : *good                       ? "tolerance.torque.within"
            : card.percent_after <= limit ? "tolerance.torque.then_within"
                                          : "tolerance.torque.outside",
-           {percent("limit", limit)}}};
+           {per_cent("limit", limit)}}};
 }
 
 /// Who tells the gap without a model. An encoder on the load shows none, so that `detect` would send the
@@ -105,7 +105,7 @@ Statement limited_trust(const CardFacts& f) {
   if (by_diagnosis && m != nullptr && m->remains >= kRule.floor_ratio &&
       m->floor_from != FloorSource::kRepeatability)
     return {"trust.limited.floors", {ratio("floors", m->remains)}};
-  if (by_diagnosis && is_open(a)) return {"trust.limited.open", {percent("share", 100.0 * open_share(a))}};
+  if (by_diagnosis && is_open(a)) return {"trust.limited.open", {per_cent("share", 100.0 * open_share(a))}};
   const bool fitted = a.from == AnswerSource::kReference && f.reference != nullptr;
   if (fitted && f.reference->why.code() == "above_floor")
     return {"trust.limited.floors", {ratio("floors", f.reference->innovation_rmse / f.reference->floor)}};

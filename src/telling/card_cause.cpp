@@ -60,21 +60,21 @@ Told simulator_of(const CardFacts& f) {
 
 bool input_is_made(const Diagnosis& d) { return !d.traces.empty() && !d.traces.front().target.empty(); }
 
-Fact source(const Diagnosis& d) {
+Fact source_word(const Diagnosis& d) {
   return word("source", input_is_made(d) ? "model's controller computes from the goal" : "input applies");
 }
-Fact judged(const Diagnosis& d) {
+Fact judged_word(const Diagnosis& d) {
   return word("judged", d.mismatch.judged_by == JudgedBy::kPrediction ? "prediction" : "free run");
 }
-Fact error(const Diagnosis& d) {
+Fact error_word(const Diagnosis& d) {
   return word("error", d.mismatch.judged_by == JudgedBy::kPrediction ? "prediction error" : "free-run error");
 }
-Fact added(const Diagnosis& d) {
+Fact added_names(const Diagnosis& d) {
   std::vector<std::string> all;
   for (const AddedEffect& a : d.added) all.push_back(readable(a.effect));
   return names("added", all);
 }
-Fact parts(const Diagnosis& d) {
+Fact parts_word(const Diagnosis& d) {
   const bool parts = !d.traces.empty() &&
                      std::ranges::all_of(d.traces, [](const MismatchTrace& t) { return t.scored_from > 0; });
   return word("parts", parts ? "recording's parts" : "recordings");
@@ -85,7 +85,7 @@ Fact floor_of_the_motion(const MismatchSize& m) {
                            : "the encoder's noise");
 }
 
-Fact encoder(const Diagnosis& d) {
+Fact encoder_word(const Diagnosis& d) {
   const bool load = !d.traces.empty() && d.traces.front().encoder == EncoderSide::kLoad;
   return word("x", load ? "x2" : "x1");
 }
@@ -133,7 +133,7 @@ Told established(const CardFacts& f) {
   Told told;
   if (std::vector<ToldName> causes = names_of(f, true); !causes.empty())
     told.push_back({kCodes[static_cast<int>(doubt)],
-                    {names("causes", std::move(causes)), open_names(f), judged(*f.diagnosis),
+                    {names("causes", std::move(causes)), open_names(f), judged_word(*f.diagnosis),
                      word("rival", rival_of_first(*f.diagnosis))}});
   for (Statement& group : groups(f, doubt)) told.push_back(std::move(group));
   return told;
@@ -147,11 +147,11 @@ Statement doubt_of_balance(const AddedEffect& a, const Diagnosis& d) {
   const torque_view::TorqueViewOptions conditions;
   for (const BudgetRung& r : d.budget.rungs) {
     if (!r.added || r.effect != a.effect) continue;
-    if (r.share < conditions.least_share) return {"open.little", {percent("fall", fall_of_rms(r.share))}};
+    if (r.share < conditions.least_share) return {"open.little", {per_cent("fall", fall_of_rms(r.share))}};
     if (r.share_ci95.low < conditions.least_low)
       return {
           "open.uncertain",
-          {percent("low", fall_of_rms(r.share_ci95.low)), percent("high", fall_of_rms(r.share_ci95.high))}};
+          {per_cent("low", fall_of_rms(r.share_ci95.low)), per_cent("high", fall_of_rms(r.share_ci95.high))}};
     if (r.last < conditions.least_share) return {"open.same"};
     return {"open.rival",
             {word("rival", r.rivals.empty() ? "another torque" : readable_law(r.rivals.front()))}};
@@ -185,7 +185,7 @@ Told open_causes(const CardFacts& f) {
   const double least = torque_view::TorqueViewOptions{}.least_share;
   if (little)
     told.push_back(
-        {"cause.open.least", {percent("fall", fall_of_rms(least)), percent("share", 100.0 * least)}});
+        {"cause.open.least", {per_cent("fall", fall_of_rms(least)), per_cent("share", 100.0 * least)}});
   return told;
 }
 
@@ -205,11 +205,11 @@ Told unknown(const CardFacts& f) {
   const bool little =
       d.mismatch.floor_from == FloorSource::kEncoder && d.mismatch.remains < std::sqrt(kRule.near_floor);
   if (first != nullptr && first->probability > d.outside_probability)
-    told.push_back(
-        {"cause.unknown.nearest",
-         {word("nearest", readable(first->effect)), percent("share", 100.0 * std::max(first->shrink, 0.0))}});
+    told.push_back({"cause.unknown.nearest",
+                    {word("nearest", readable(first->effect)),
+                     per_cent("share", 100.0 * std::max(first->shrink, 0.0))}});
   else if (little)
-    told.push_back({"cause.unknown.little", {encoder(d), ratio("times", d.mismatch.remains)}});
+    told.push_back({"cause.unknown.little", {encoder_word(d), ratio("times", d.mismatch.remains)}});
   return told;
 }
 
@@ -236,7 +236,7 @@ Told cause_of(const CardFacts& f) {
     told.insert(rests_on_open_cause(d) ? told.begin() : told.end(), open.begin(), open.end());
     if (told.empty()) told = d.stopped ? Told{{"cause.stopped"}} : unknown(f);
     if (causes.empty() && !has_code(told, "cause.stopped") && is_likely_outside(d))
-      told.push_back({"cause.outside", {percent("p", 100.0 * d.outside_probability)}});
+      told.push_back({"cause.outside", {per_cent("p", 100.0 * d.outside_probability)}});
     if (ended_early(d)) told.push_back({"cause.exhausted"});
   }
   for (Statement& s : simulator_of(f)) told.push_back(std::move(s));

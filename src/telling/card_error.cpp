@@ -41,8 +41,8 @@ Statement torque_size(const CardFacts& f, const Card& card) {
                                        : "error.torque.many",
               of_model(d)};
   for (Fact fact :
-       {number("missing", card.torque, "N m"), percent("share", card.percent),
-        ratio("times", 0.01 * card.percent), source(d), ratio("band", b.exists() ? b.band_hz : kNaN),
+       {number("missing", card.torque, "N m"), per_cent("share", card.percent),
+        ratio("times", 0.01 * card.percent), source_word(d), ratio("band", b.exists() ? b.band_hz : kNaN),
         word("input", SharedUnit(input, f.coordinates.shown_unit("N m"))(input))})
     s.facts.push_back(std::move(fact));
   return s;
@@ -77,7 +77,7 @@ Told torque_floor(const CardFacts& f, const Card& card) {
   return {{records              ? "error.floor.records"
            : is_of_the_drive(b) ? "error.floor.drive"
                                 : "error.floor.encoder",
-           {number("floor", floor, "N m"), parts(*f.diagnosis)}}};
+           {number("floor", floor, "N m"), parts_word(*f.diagnosis)}}};
 }
 
 /// Of a model that nothing is missing of: that what is left is no more than the encoder's noise, or than the

@@ -87,7 +87,7 @@ std::string share_of(const AddedEffect& a, const CardFacts& f) {
   const bool torque = a.share_of == ShareOf::kTorque && is_told_in_torque(d) && d.budget.uncounted.empty();
   if (a.share_of == ShareOf::kMotion)
     return as_clause({i == 0 ? "share.motion" : "share.motion.left",
-                      {error(d), percent("share", 100.0 * std::min(a.shrink, 1.0))}},
+                      {error_word(d), per_cent("share", 100.0 * std::min(a.shrink, 1.0))}},
                      f.coordinates);
   if (!torque || !std::isfinite(before) || !std::isfinite(left[i])) return "";
   return as_clause({"share.torque", {number("before", before, "N m"), number("after", left[i], "N m")}},
@@ -98,21 +98,23 @@ std::string share_of(const AddedEffect& a, const CardFacts& f) {
 Statement fall(const CardFacts& f, const Card& card) {
   const Diagnosis& d = *f.diagnosis;
   const MismatchSize& m = d.mismatch;
-  const Fact share = percent("share", card.percent), after = percent("share_after", card.percent_after);
+  const Fact share = per_cent("share", card.percent), after = per_cent("share_after", card.percent_after);
   if (has_rungs(d))
-    return {"helps.rungs",
-            {number("before", card.torque, "N m"), rungs(f, chain_of(d), "N m"), share, after, source(d)}};
+    return {
+        "helps.rungs",
+        {number("before", card.torque, "N m"), rungs(f, chain_of(d), "N m"), share, after, source_word(d)}};
   if (const std::vector<double> left = rungs_of_motion(d); !left.empty() && !tells_torque(card))
     return {"helps.motion_rungs",
-            {error(d), number("before", m.before, "rad"), rungs(f, left, "rad"), word("measure", m.measure)}};
+            {error_word(d), number("before", m.before, "rad"), rungs(f, left, "rad"),
+             word("measure", m.measure)}};
   std::vector<ToldName> told;
   for (const AddedEffect& a : d.added) told.push_back(with_amount(a, d, f.coordinates, share_of(a, f)));
   if (tells_torque(card))
     return {"helps.torque",
             {names("added", std::move(told)), number("before", card.torque, "N m"),
-             number("after", card.torque_after, "N m"), share, after, source(d)}};
+             number("after", card.torque_after, "N m"), share, after, source_word(d)}};
   return {"helps.motion",
-          {names("added", std::move(told)), error(d), number("before", m.before, "rad"),
+          {names("added", std::move(told)), error_word(d), number("before", m.before, "rad"),
            number("after", m.after, "rad"), word("measure", m.measure)}};
 }
 
@@ -126,7 +128,7 @@ Statement what_is_left(const CardFacts& f, const Card& card) {
   const double floor = b.exists() && b.uncounted.empty() && tells_torque(card) ? b.floor() : kNaN;
   if (floor > 0.0 && card.torque_after > kRule.floor_ratio * floor)
     return {b.records >= floor ? "helps.left.records" : "helps.left.floor",
-            {number("left", card.torque_after, "N m"), number("floor", floor, "N m"), parts(d)}};
+            {number("left", card.torque_after, "N m"), number("floor", floor, "N m"), parts_word(d)}};
   return {tells_torque(card) ? "helps.left.torque" : "helps.left.motion",
           {ratio("times", m.remains), floor_of_the_motion(m)}};
 }
@@ -138,8 +140,8 @@ Told of_laws(const Diagnosis& d) {
   Told told;
   for (const LastResortLaw& law : d.laws)
     told.push_back({"helps.law",
-                    {word("variable", law.variable), error(d), word("law", law.law),
-                     percent("share", 100.0 * std::min(law.shrink, 1.0))}});
+                    {word("variable", law.variable), error_word(d), word("law", law.law),
+                     per_cent("share", 100.0 * std::min(law.shrink, 1.0))}});
   return told;
 }
 
@@ -148,7 +150,7 @@ Told numbers(const CardFacts& f, const char* code, std::size_t most) {
   const std::vector<ChangedNumber> changed = changed_numbers(*f.diagnosis, f.coordinates);
   if (changed.empty()) return {};
   Told told = {{code, {briefly_changed(changed), changed_in_full(changed, most)}}};
-  for (Statement& s : scale_of(*f.diagnosis)) told.push_back(std::move(s));
+  for (Statement& s : scaled_numbers(*f.diagnosis)) told.push_back(std::move(s));
   return told;
 }
 
@@ -182,7 +184,7 @@ Told helps_of(const CardFacts& f, const Card& card) {
   Told told;
   const auto put = [&](Told more) { told.insert(told.end(), more.begin(), more.end()); };
   if (!d.added.empty()) {
-    put({fall(f, card), {"helps.fitted", {added(d)}}});
+    put({fall(f, card), {"helps.fitted", {added_names(d)}}});
     if (comes_no_nearer(d.mismatch))
       put({{"helps.no_nearer",
             {number("before", d.mismatch.before, "rad"), number("after", d.mismatch.after, "rad"),

@@ -39,13 +39,13 @@ std::size_t differing_rows(const SimulatorComparison* comparison);
 
 /// Whether the input was not recorded: the model's controller makes it of the goal.
 bool input_is_made(const Diagnosis& diagnosis);
-Fact source(const Diagnosis& diagnosis);  ///< "input applies": what the torque is a share of
-Fact judged(const Diagnosis& diagnosis);  ///< "free run" or "prediction"
-Fact error(const Diagnosis& diagnosis);   ///< "free-run error" or "prediction error"
-Fact added(const Diagnosis& diagnosis);   ///< names of what was added
+Fact source_word(const Diagnosis& diagnosis);  ///< "input applies": what the torque is a share of
+Fact judged_word(const Diagnosis& diagnosis);  ///< "free run" or "prediction"
+Fact error_word(const Diagnosis& diagnosis);   ///< "free-run error" or "prediction error"
+Fact added_names(const Diagnosis& diagnosis);  ///< names of what was added
 /// What one set of numbers leaves that one for each would not.
-Fact parts(const Diagnosis& diagnosis);
-Fact encoder(const Diagnosis& diagnosis);            ///< "x1" or "x2"
+Fact parts_word(const Diagnosis& diagnosis);
+Fact encoder_word(const Diagnosis& diagnosis);       ///< "x1" or "x2"
 Fact floor_of_the_motion(const MismatchSize& size);  ///< "the encoder's noise"
 
 Told cause_of(const CardFacts& facts);

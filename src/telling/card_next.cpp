@@ -76,7 +76,7 @@ Told unexplained(const CardFacts& f, const Card& card) {
   if (d.mismatch.remains < kRule.floor_ratio) return {};  // the motion shows none of it
   if (!(b.uncounted.empty() && sized && floor > 0.0 && (most || left > kRule.far * floor))) return {};
   return {{"next.do_not_rely",
-           {percent("left", card.percent_after), ratio("times", left / floor),
+           {per_cent("left", card.percent_after), ratio("times", left / floor),
             word("floor", b.records >= floor   ? "that by which the recordings disagree"
                           : is_of_the_drive(b) ? "what the drive itself differs by from period to period"
                                                : "what the encoder's noise alone looks like"),
@@ -104,7 +104,7 @@ Statement simulate(const Diagnosis& d, Coordinates coordinates) {
     if (drifts_farther(d))
       return {"next.simulate.drifts", {number("after", w.after, "rad"), number("before", w.before, "rad")}};
     if (w.after > kTelling.whole_run_drift * w.travel)
-      return {"next.short_motions", {percent("drift", 100.0 * w.after / w.travel)}};
+      return {"next.short_motions", {per_cent("drift", 100.0 * w.after / w.travel)}};
   }
   if (open) return {"next.simulate.open"};
   const std::string what =
@@ -145,7 +145,7 @@ Told step_to_establish(const CardFacts& f, const Card& card) {
   Told told;
   if (card.percent < kTelling.little_torque_percent && !f.tolerance.stated())
     told.push_back(
-        {"next.little", {percent("share", card.percent), word("tolerance", "{torque_percent: 1}")}});
+        {"next.little", {per_cent("share", card.percent), word("tolerance", "{torque_percent: 1}")}});
   told.push_back({input_is_made(*f.diagnosis) ? "next.record_input" : "next.record_motion"});
   return told;
 }

@@ -258,7 +258,7 @@ Fact changed_in_full(const std::vector<ChangedNumber>& all, std::size_t most) {
   return names("changes", told);
 }
 
-Told scale_of(const Diagnosis& d) {
+Told scaled_numbers(const Diagnosis& d) {
   const RefittedNumber* inertia = refitted_number(d, "motor_inertia");
   const RefittedNumber* damping = refitted_number(d, "motor_damping");
   const bool scaled =
@@ -270,7 +270,7 @@ Told scale_of(const Diagnosis& d) {
   if (!alike || !clearly_changes(a) || !clearly_changes(b)) return {};
   const double factor = inertia->fitted / inertia->configured;
   return {{"helps.scale",
-           {ratio("factor", factor), percent("share", 100.0 * std::abs(1.0 / factor - 1.0)),
+           {ratio("factor", factor), per_cent("share", 100.0 * std::abs(1.0 / factor - 1.0)),
             word("way", factor > 1.0 ? "smaller" : "larger"), estimate_true()}}};
 }
 

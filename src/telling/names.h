@@ -41,7 +41,7 @@ Fact briefly_changed(const std::vector<ChangedNumber>& all);
 Fact changed_in_full(const std::vector<ChangedNumber>& all, std::size_t most);
 
 /// What inertia and damping that change by one factor may be instead; nothing where they do not.
-Told scale_of(const Diagnosis& diagnosis);
+Told scaled_numbers(const Diagnosis& diagnosis);
 
 /// "a free curve over the speed", or the effect of a law of the torque balance.
 std::string readable_law(const std::string& law);

@@ -175,7 +175,7 @@ Told mended(const SimulatorComparison& c) {
                                    number("mended", e.mended, "rad"),
                                    number("all", rows > 1 ? e.all_mended : kNaN, "rad"),
                                    ratio("rows", static_cast<double>(rows)),
-                                   percent("share", 100.0 * c.shrink),
+                                   per_cent("share", 100.0 * c.shrink),
                                    word("first", readable(c.rows.front().name))};
   return {{"simulator.stand_in", facts},
           {c.shrink > 0.0 ? "simulator.mended" : "simulator.not_mended", facts}};

@@ -123,7 +123,7 @@ Fact number(std::string key, double value, std::string unit, const Interval& ci9
   return {std::move(key), value, std::move(unit), ci95, {}};
 }
 Fact ratio(std::string key, double value) { return {std::move(key), value}; }
-Fact percent(std::string key, double value) { return {std::move(key), value, "%"}; }
+Fact per_cent(std::string key, double value) { return {std::move(key), value, "%"}; }
 Fact word(std::string key, std::string text) {
   Fact fact{std::move(key)};
   if (!text.empty()) fact.names.push_back({std::move(text)});

@@ -94,7 +94,7 @@ TEST(Trust, AFitThatIsInterruptedLeavesTheReadingWithoutAModel) {
   const auto run = place.run("run long.yaml", "timeout --foreground --preserve-status -s INT 4");
   EXPECT_EQ(run.status, 130) << run.err;
   EXPECT_THAT(run.err, HasSubstr("the fit of the model was stopped"));
-  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, at x1) is "));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap is "));
   EXPECT_TRUE(result_of(place, "reports/long")["reference"].is_null());
 }
 
@@ -103,9 +103,10 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   make_recordings(place);
   const auto run = place.run("run right.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap 2β (full width, at x1) is 18.999"));
-  EXPECT_THAT(run.out,
-              HasSubstr(" Trust: good.\nmodel error A free run of the fitted model fits the motion to 99.9"));
+  EXPECT_THAT(run.out, HasSubstr("\ngap         The backlash gap is 18.999"));
+  EXPECT_THAT(
+      run.out,
+      HasSubstr(" Trust: good.\nmodel error The fitted model, simulated freely, follows the motion to 99.9"));
   const auto result = result_of(place, "reports/right");
   EXPECT_EQ(result["reference"]["trust"], "good");
   EXPECT_GT(result["reference"]["fit_percent"].get<double>(), 99.0);

@@ -43,7 +43,7 @@ bool among(const std::vector<const EffectEntry*>& list, const std::string& name)
 double left(const ScoredModel& j) { return std::max(j.median_free, j.median_innovation); }
 
 /// Least that any one of the true effects leaves alone [floor].
-double left_by_one(const Findings& f, const Names& truth) {
+double left_by_one(const FirstSearch& f, const Names& truth) {
   double least = kInfinity;
   for (const ScoredModel& c : f.candidates)
     if (std::find(truth.begin(), truth.end(), c.entry->name) != truth.end() && std::isfinite(left(c)))
@@ -122,7 +122,7 @@ StudyRow examine_steps(const blind::BlindPair& pair, std::uint64_t seed) {
   };
   Study study = make_study(train, held, pair.sheet, options);
   const EffectSearch search = search_effects(study);
-  const Findings& f = search.found;
+  const FirstSearch& f = search.found;
   const Additions& a = search.added;
   StudyRow row;
   row.seconds = thread_seconds() - begin;

@@ -37,7 +37,7 @@ DecisionCase examine(const std::string& kind, const test::DrawnCase& drawn, cons
   const double begin = test::thread_seconds();
   Study study = make_study(train, held, pair.sheet, options);
   study.effort = effort;
-  Findings f = investigate(study);
+  FirstSearch f = investigate(study);
   DecisionCase c{drawn.seed, kind, pair.rig, pair.effect, pair.severity, test::thread_seconds() - begin,
                  f.before,   {}};
   c.candidates = std::move(f.candidates);

@@ -83,7 +83,7 @@ Removed without(const std::string& effect, std::vector<ScoredModel> candidates, 
   return removed;
 }
 
-std::string describe(const Findings& f, const std::string& effect) {
+std::string describe(const FirstSearch& f, const std::string& effect) {
   std::string text =
       fmt::format("free {:.3g} inn {:.3g} fit {:.3g} S {:.2f}", f.before.median_free,
                   f.before.median_innovation, std::sqrt(f.before.fitted.mean_cost), f.before.score);
@@ -104,7 +104,7 @@ std::string describe(const Findings& f, const std::string& effect) {
 }
 
 /// Whether the shrink on a recording that the diagnosis has not seen is within the interval that it gave.
-std::string covers(const Study& study, const Findings& f, const blind::BlindPair& pair,
+std::string covers(const Study& study, const FirstSearch& f, const blind::BlindPair& pair,
                    std::string& details) {
   const Interval interval = mismatch_size(study, f.before, f.candidates.front()).shrink_ci95;
   const Recording last = pair.next();
@@ -119,7 +119,7 @@ std::string covers(const Study& study, const Findings& f, const blind::BlindPair
   return interval.low <= shrink && shrink <= interval.high ? "yes" : "no";
 }
 
-std::string places(const Study& study, const Findings& f, const blind::BlindPair& pair, bool told) {
+std::string places(const Study& study, const FirstSearch& f, const blind::BlindPair& pair, bool told) {
   const ReferenceModel& fitted = f.candidates.front().fitted.model;
   const auto played = play(f.before.fitted.model, study.held_out, study.observer_hz, true);
   const MismatchPlace place =
@@ -128,7 +128,7 @@ std::string places(const Study& study, const Findings& f, const blind::BlindPair
   return blind::names_the_place(blind::told_place(place), pair.effect, pair.cycles_per_turn) ? "yes" : "no";
 }
 
-void note_answer(StudyRow& row, const Study& study, const Findings& f, const blind::BlindPair& pair) {
+void note_answer(StudyRow& row, const Study& study, const FirstSearch& f, const blind::BlindPair& pair) {
   row.verdict = f.decision.accepted ? "effect" : "unknown";
   row.first = f.candidates.front().entry->name;
   row.group = static_cast<int>(f.decision.group.size());
@@ -154,7 +154,7 @@ StudyRow examine(const blind::BlindPair& pair, std::uint64_t seed) {
   const MotorTrace train[] = {pair.train.motor_trace()}, held[] = {pair.held_out.motor_trace()};
   const double begin = test::thread_seconds();
   Study study = make_study(train, held, pair.sheet, options);
-  const Findings f = investigate(study);
+  const FirstSearch f = investigate(study);
   StudyRow row;
   row.seconds = test::thread_seconds() - begin;
   row.seed = seed, row.rig = pair.rig, row.effect = pair.effect, row.excitations = pair.excitations;

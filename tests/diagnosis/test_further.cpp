@@ -43,7 +43,7 @@ TEST(FurtherSteps, BearOutAnUnsureFirstOneThatTheyLeadFromToTheFloorOrNearIt) {
 }
 
 TEST(FurtherSteps, BeginWhereTheHeldOutErrorShrinksOrWhereMuchOfTheFitIsExplained) {
-  Findings found;
+  FirstSearch found;
   found.before = model(12.0, 1600.0, 1e4);
   found.candidates = {model(11.0, 1500.0, 9.5e3), model(11.95, 1550.0, 9e3), model(12.0, 1300.0, 6e3),
                       model(12.1, 2400.0, 5e3), model(12.2, 2400.0, 4e3)};

@@ -77,7 +77,7 @@ Additions steps_from_a_soft_contact(const DriveWithDetents& drive, const Referen
   soft.parameters[place::kGap].value = 6.8e-3;
   soft.effects.front().parameters[0].value = 9.2e-3;
   soft.effects.push_back(searched_effect(*cogging, {6.2e-3, 24.0, 0.0, 0.0, kNaN, kNaN, kNaN}, study.turns));
-  Findings found;
+  FirstSearch found;
   found.candidates = {judge(cogging, fit_near(study.train, soft, options.fit, study.observer_hz),
                             study.held_out, study.observer_hz)};
   found.before = found.candidates.front();

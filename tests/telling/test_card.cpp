@@ -59,9 +59,9 @@ TEST(Card, TellsTheGapOfADiagnosisWhoseModelFollows) {
   d.stopped = true;
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value());
   d.stopped = false;
-  d.mismatch.measure = "prediction of an observer at 30 Hz";
+  d.mismatch.judged_by = JudgedBy::kPrediction;
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value());
-  d.mismatch.measure = "";
+  d.mismatch.judged_by = JudgedBy::kFreeRun;
   d.mismatch.after = 1.2e-4, d.model_gap->ci95 = {};
   EXPECT_FALSE(answer_of_diagnosis(d, Coordinates()).has_value()) << "not determined";
   d.model_gap = ModelGap{GapOrigin::kGiven, 0.02, {}};

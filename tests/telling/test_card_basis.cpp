@@ -104,9 +104,9 @@ TEST(CardBasis, TheLineOfThePlaceIsASentence) {
     d.where.headline = headline;
     return card_of(facts_of(nullptr, &d)).place;
   };
-  EXPECT_TOLD(where("periodic in the motor position, every 5 mm"));
+  EXPECT_TOLD(where("is periodic in the motor position, every 5 mm"));
   EXPECT_TOLD(where("depends on the speed (largest at 34–51 mm/s)"));
-  EXPECT_TOLD(where("no clear pattern in angle, speed, input or time"));
+  EXPECT_TOLD(where("has no clear pattern in angle, speed, input or time"));
 }
 
 }  // namespace

@@ -178,11 +178,11 @@ TEST(CardConsistency, AGapThatIsDeniedAndFittedIsADisagreement) {
 
 TEST(CardConsistency, LimitedTrustInADenialHasItsReason) {
   Answer denial{kNaN, {}, AnswerSource::kModelFree, AnswerTrust::kLimited, "", {}};
-  go_on(denial, {{"none.model_free", {number("least", 1e-3, "rad"), percent("share", kNaN)}}}, {});
+  go_on(denial, {{"none.model_free", {number("least", 1e-3, "rad"), per_cent("share", kNaN)}}}, {});
   CardFacts f;
   f.answer = &denial;
   EXPECT_TOLD(gapscope::card_of(f).gap);
-  EXPECT_THAT(gapscope::card_of(f).codes.gap, ::testing::Contains("trust.limited.open"));
+  EXPECT_THAT(gapscope::card_of(f).codes.gap, ::testing::Contains("trust.limited.light_load"));
   denial.trust = AnswerTrust::kGood;
   EXPECT_TOLD(gapscope::card_of(f).gap);
 }

@@ -97,7 +97,7 @@ TEST(CardMismatch, OfAModelAsGoodAsTheRecordingHasTheNoiseBesideIt) {
 
 TEST(CardPlace, SaysWhereAPeriodIsLongerThanTheMotion) {
   Diagnosis d = of_friction_and_delay(true, true);
-  d.where.headline = "periodic in the motor angle, once per turn; only forward motion was recorded";
+  d.where.headline = "is periodic in the motor angle, once per turn; only forward motion was recorded";
   d.where.periods_per_turn = 1.0;
   d.whole_run = WholeRun{0.407, 0.0412, 0.876};
   EXPECT_TOLD(card_of(d).place);

@@ -38,7 +38,7 @@ using Told = std::vector<Statement>;
 
 Fact number(std::string key, double value, std::string unit, const Interval& ci95 = {});
 Fact ratio(std::string key, double value);
-Fact percent(std::string key, double value);  ///< [%]
+Fact per_cent(std::string key, double value);  ///< [%]
 Fact word(std::string key, std::string text);
 Fact names(std::string key, const std::vector<std::string>& all);
 Fact names(std::string key, std::vector<ToldName> all);
