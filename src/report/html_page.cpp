@@ -66,9 +66,9 @@ for(const th of document.querySelectorAll('th')){
   th.onkeydown=e=>{if(e.key==='Enter')sort()};
 }
 const plots=[...document.querySelectorAll('.plot')],n=(e,k)=>parseFloat(e.getAttribute(k)),d=(e,k)=>parseFloat(e.dataset[k]);
-function lines(p){  // of a panel, as points in pixels
+function lines(p){  // of a panel, as points in pixels; its grid has two points a line
   return p.lines??=[...p.ownerSVGElement.querySelectorAll(`polyline[clip-path="url(#${p.dataset.clip})"]`)].map(l=>
-    ({colour:l.getAttribute('stroke'),at:l.getAttribute('points').split(' ').map(q=>q.split(',').map(Number))}));
+    ({colour:l.getAttribute('stroke'),at:l.getAttribute('points').split(' ').map(q=>q.split(',').map(Number))})).filter(l=>l.at.length>2);
 }
 function value(p,x){  // of each line at a pixel
   const found=[];
@@ -84,26 +84,23 @@ const digits=v=>v.toPrecision(4).replace('-','−');
 function cursor(of,at){
   for(const p of plots){
     const share=(at-d(p,'xlow'))/(d(p,'xhigh')-d(p,'xlow')),here=p.dataset.x===of.dataset.x&&share>=0&&share<=1;
-    p.mark?.setAttribute('visibility',here?'visible':'hidden');
-    if(!here)continue;
+    if(!here){p.mark?.setAttribute('visibility','hidden');continue}
     const x=n(p,'x')+share*n(p,'width');
     if(!p.mark){
       p.mark=document.createElementNS(p.namespaceURI,'line');
       for(const [k,v] of [['y1',n(p,'y')],['y2',n(p,'y')+n(p,'height')],['stroke','#57606a'],['stroke-width',2],['pointer-events','none']])p.mark.setAttribute(k,v);
       p.after(p.mark);
     }
-    p.mark.setAttribute('x1',x);p.mark.setAttribute('x2',x);
-    const tip=tips.get(p.ownerSVGElement);
-    if(p===of)tip.textContent=`${p.dataset.x}: ${digits(at)}`;
-    if(p!==of&&p.ownerSVGElement!==of.ownerSVGElement)tip.textContent=`${p.dataset.x}: ${digits(at)}`;
+    p.mark.setAttribute('x1',x);p.mark.setAttribute('x2',x);p.mark.setAttribute('visibility','visible');
+    const tip=tips.get(p.ownerSVGElement),values=value(p,x);
+    tip.textContent||=`${p.dataset.x}: ${digits(at)}`;
+    if(values.length)tip.append(`; ${p.dataset.y}:`);
+    for(const [colour,v] of values){
+      const s=document.createElement('span');
+      s.textContent=` ■ ${digits(v)}`;s.style.color=colour;
+      tip.append(s);
+    }
   }
-  for(const [svg,tip] of tips)for(const p of plots)
-    if(p.ownerSVGElement===svg&&p.mark?.getAttribute('visibility')==='visible')
-      for(const [colour,v] of value(p,n(p.mark,'x1'))){
-        const s=document.createElement('span');
-        s.textContent=` ■ ${digits(v)}`;s.style.color=colour;s.title=p.dataset.y;
-        tip.append(s);
-      }
 }
 const tips=new Map();
 for(const svg of document.querySelectorAll('figure svg')){

@@ -156,7 +156,10 @@ Told lost_motion(const Findings& f) {
   else
     told.push_back({"lost_motion", {length("lost", l.value, l.ci95)}});
   if (large.lost_motion > small.ci95.high) told.push_back({"lost_motion.grows"});
-  if (std::isfinite(l.gap_limit)) told.push_back({"gap.at_most", {length("limit", l.gap_limit)}});
+  if (l.gap_limit > f.travel)
+    told.push_back({"gap.beyond_travel", {length("travel", f.travel)}});
+  else if (std::isfinite(l.gap_limit))
+    told.push_back({"gap.at_most", {length("limit", l.gap_limit)}});
   told.push_back({l.cause == LostMotionCause::kGap        ? "lost_motion.gap"
                   : l.cause == LostMotionCause::kFriction ? "lost_motion.friction"
                                                           : "lost_motion.open"});

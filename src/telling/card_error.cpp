@@ -27,7 +27,8 @@ Told fit_of_motion(const CardFacts& f) {
 /// What the size of an error is of: whether the model is refitted, and the effects that it has.
 std::vector<Fact> of_model(const Diagnosis& d) {
   std::vector<std::string> has;
-  for (const std::string& effect : d.modelled) has.push_back(readable(effect));
+  for (const std::string& effect : d.modelled)  // of a known mass on an arm, as its user knows it
+    has.push_back(effect == "load_unbalance" ? "gravity of the load" : readable(effect));
   return {word("refitted", d.refitted.empty() ? "" : "refitted"), names("has", has)};
 }
 

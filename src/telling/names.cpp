@@ -222,14 +222,12 @@ std::vector<ChangedNumber> changed_numbers(const Diagnosis& d, Coordinates coord
     if (from == fmt::format("{:.3g}", n.fitted)) continue;
     const bool angle = n.key.ends_with("phase_rad");  // along a slide, too
     const SharedUnit unit(1.0, (angle ? Coordinates() : coordinates).shown_unit(n.unit));
-    ToldName name = name_of_number(n, d, coordinates);
-    const std::string plain = name.name;
-    name.name += " " + from + " → " + unit(n.fitted);
-    if (std::isfinite(n.ci95.low))
-      name.aside += (name.aside.empty() ? "" : "; ") +
-                    fmt::format("95 %: {} to {}", unit.number(n.ci95.low), unit.number(n.ci95.high));
+    const ToldName name = name_of_number(n, d, coordinates);
+    const std::string of = name.aside.empty() ? "" : " (" + name.aside + ")";
     const bool of_effect = n.key.find('.') != n.key.npos && n.unit == "N m";
-    all.push_back({std::move(name), plain, diagnosis::moved_by(n), of_effect});
+    all.push_back({name.name, name.name + " " + from + " → " + unit(n.fitted),
+                   name.name + of + " " + from + " → " + unit.with_interval_aside(n.fitted, n.ci95),
+                   diagnosis::moved_by(n), of_effect});
   }
   std::ranges::stable_sort(all, [](const ChangedNumber& a, const ChangedNumber& b) {
     return std::pair(rank_of(a), -a.moved) < std::pair(rank_of(b), -b.moved);
@@ -240,20 +238,18 @@ std::vector<ChangedNumber> changed_numbers(const Diagnosis& d, Coordinates coord
 Fact briefly_changed(const std::vector<ChangedNumber>& all) {
   std::vector<std::string> told;
   const std::size_t most = all.size() > kToldNumbers + 1 ? kToldNumbers : all.size();
-  for (std::size_t i = 0; i < most; ++i) told.push_back(all[i].told.name);
+  for (std::size_t i = 0; i < most; ++i) told.push_back(all[i].briefly);
   if (all.size() > most) told.push_back(fmt::format("{} more", all.size() - most));
   return names("brief", told);
 }
 
 Fact changed_in_full(const std::vector<ChangedNumber>& all, std::size_t most) {
   std::vector<std::string> told, rest;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const ToldName& n = all[i].told;
+  for (std::size_t i = 0; i < all.size(); ++i)
     if (i < most || all[i].moved > kTelling.clear_change)
-      told.push_back(n.aside.empty() ? n.name : n.name + " (" + n.aside + ")");
+      told.push_back(all[i].in_full);
     else
       rest.push_back(all[i].name);
-  }
   if (!rest.empty()) told.push_back(fmt::format("to a smaller part {}", fmt::join(rest, ", ")));
   return names("changes", told);
 }

@@ -25,14 +25,15 @@ std::vector<std::string> amounts_of(const AddedEffect& added, const Diagnosis& d
 /// What the recordings cannot tell from an effect, but for what was added as well.
 std::vector<std::string> others_of(const AddedEffect& added, const Diagnosis& diagnosis);
 
-/// "motor damping 0.1 → 0.04 N·m s/rad", with its interval as the aside, of all estimated numbers that now
-/// read differently: those that clearly move first, torques of effects before them.
+/// An estimated number that now reads differently.
 struct ChangedNumber {
-  ToldName told;
-  std::string name;
+  std::string name;     ///< "motor damping"
+  std::string briefly;  ///< "motor damping 0.1 → 0.04 N·m s/rad"
+  std::string in_full;  ///< "motor damping 0.1 → 0.0400 N·m s/rad (95 %: 0.0399 to 0.0401)"
   double moved = 0.0;   ///< by how much of itself
   bool torque = false;  ///< of an effect
 };
+/// All of them: those that clearly move first, torques of effects before them.
 std::vector<ChangedNumber> changed_numbers(const Diagnosis& diagnosis, Coordinates coordinates);
 
 /// Those in brief: the first three, and how many more there are.

@@ -45,6 +45,7 @@ constexpr Wording kWordings[] = {
     {"lost_motion.open",
      "How much of it is a gap, and how much friction and compliance, this recording does not tell."},
     {"gap.at_most", "The gap is at most {limit}."},
+    {"gap.beyond_travel", "The motor moves by {travel} in all, so that nothing can be said of a gap."},
     {"gap.not_known",
      "The gap is not known:[ {rejected}, and] without a model the recording is inconclusive.",
      "The gap is not known:[ {rejected}, and] without a model the recording is inconclusive ({reason})."},

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 
 #include "report/diagnosis_figures.h"
+#include "support/told.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::line_with;
 
 TEST(AddedEffectsReport, TellsTheNumbersOfWhatWasAddedWithTheirIntervals) {
   DiagnosisResult r;
@@ -15,9 +17,8 @@ TEST(AddedEffectsReport, TellsTheNumbersOfWhatWasAddedWithTheirIntervals) {
                         {"periods_per_turn", "1/rev", 24.0}};
   r.diagnosis.added = {cogging};
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(text,
-              HasSubstr("| `cogging_torque` (established) | amplitude | 4.00 mN·m (95 %: 3.80 to 4.20) |"));
-  EXPECT_THAT(text, HasSubstr("|  | periods per turn | 24.0 1/rev |"));
+  EXPECT_TOLD(line_with(text, "| `cogging_torque` (established) |"));
+  EXPECT_TOLD(line_with(text, "|  | periods"));
 }
 
 TEST(AddedEffectsReport, OfALinearAxisTellsThePeriod) {
@@ -28,8 +29,7 @@ TEST(AddedEffectsReport, OfALinearAxisTellsThePeriod) {
   cogging.parameters = {
       {"periods_per_turn", "1/rev", 2.0 * kPi / 2.5e-3, {2.0 * kPi / 2.6e-3, 2.0 * kPi / 2.4e-3}}};
   r.diagnosis.added = {cogging};
-  EXPECT_THAT(internal::report::diagnosis_text(r),
-              HasSubstr("| `cogging_torque` (cause open) | period | 2.50 mm (95 %: 2.40 to 2.60) |"));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "| `cogging_torque` (cause open)"));
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include "report/campaign_figures.h"
 #include "report/clear_texts.h"
 #include "report/draw_figure.h"
+#include "support/told.h"
 
 namespace gapscope::internal::report {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::line_with;
 
 EstimatorScore score(int answered, double error) {
   EstimatorScore e;
@@ -95,9 +97,8 @@ TEST(CampaignFigures, ALineHasAPointForEveryValueOfBothEstimators) {
 TEST(CampaignText, SaysWhatIsNeededAndWhyThereWasNoAnswer) {
   const CampaignSummary s = sample_campaign();
   const std::string text = campaign_text(s, campaign_figures(s));
-  EXPECT_THAT(text,
-              HasSubstr("| 2 % | resolution by sampling rate | model-free | at least 16 bit with 2 kHz |"));
-  EXPECT_THAT(text, HasSubstr("- 8 runs: inconclusive: too coarse"));
+  EXPECT_TOLD(line_with(text, "| 2 % |"));
+  EXPECT_TOLD(line_with(text, "- 8 runs: inconclusive:"));
   EXPECT_THAT(text, HasSubstr("(map_1_2.png)"));
 }
 

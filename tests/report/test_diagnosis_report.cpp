@@ -18,11 +18,13 @@
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"
+#include "support/told.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::line_with;
 using testing::text_of;
 namespace fs = std::filesystem;
 
@@ -247,11 +249,9 @@ DiagnosisResult with_budget() {
 
 TEST(ErrorBudgetReport, TellsEachLawWithItsShareAndTheFloor) {
   const std::string text = internal::report::budget_table(with_budget());
-  EXPECT_THAT(
-      text,
-      HasSubstr("| cogging torque, 24 per turn | 50.0 mN·m | 5.0 % | 0.75 | 0.6 to 0.9 | 0.75 | 0.8 |"));
-  EXPECT_THAT(text, HasSubstr("| load friction (not in the model) | 20.0 mN·m | 2.0 % |"));
-  EXPECT_THAT(text, HasSubstr("Floors, which no model gets below: 4.00 mN·m (encoder)."));
+  EXPECT_TOLD(line_with(text, "| cogging torque, 24"));
+  EXPECT_TOLD(line_with(text, "| load friction (not"));
+  EXPECT_TOLD(line_with(text, "Floors, which no model"));
   EXPECT_EQ(internal::report::budget_table(sample(DiagnosisVerdict::kEffect)), "");
 }
 
@@ -279,10 +279,9 @@ DiagnosisResult with_detectable() {
 
 TEST(DetectableReport, TellsTheAmountsInAPlainSentenceAndATable) {
   const std::string text = internal::report::detectable_table(with_detectable());
-  EXPECT_THAT(text, HasSubstr("Input delay of more than 300 µs and torque ripple of more than 2 % would have "
-                              "been named on these recordings."));
-  EXPECT_THAT(text, HasSubstr("| `torque_ripple` | 2 % | 24 per turn | 1.40 % |  |"));
-  EXPECT_THAT(text, HasSubstr("| `actuator_lag` | – |  | – | it acts as a delay does |"));
+  EXPECT_TOLD(line_with(text, "Input delay of more"));
+  EXPECT_TOLD(line_with(text, "| `torque_ripple` | 2"));
+  EXPECT_TOLD(line_with(text, "| `actuator_lag` | –"));
   EXPECT_EQ(internal::report::detectable_table(with_budget()), "");
 }
 

@@ -7,12 +7,14 @@
 #include "report/diagnosis_figures.h"
 #include "report/error_budget.h"
 #include "results/scratch_folder.h"
+#include "support/told.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using testing::line_with;
 using ::testing::Not;
 
 /// One body of which the budget knows friction.
@@ -38,8 +40,7 @@ TEST(DiagnosisWords, RecordingsThatDisagreeByMoreThanAModelLeavesAreNoFloor) {
   DiagnosisResult r = with_friction();
   r.diagnosis.budget.records = 0.044;
   const std::string text = internal::report::budget_table(r);
-  EXPECT_THAT(text, HasSubstr("Floors, which no model gets below: 4.00 mN·m (encoder). One set of numbers "
-                              "for all recordings, or parts of one, leaves 44.0 mN·m that one for each"));
+  EXPECT_TOLD(line_with(text, "Floors, which no model"));
   r.diagnosis.budget.encoder = kNaN;
   EXPECT_THAT(internal::report::budget_table(r), Not(HasSubstr("no model gets below")));
 }
@@ -53,7 +54,7 @@ TEST(DiagnosisWords, ACauseOnTopOfAnOpenOneIsEstablishedWithThat) {
   r.diagnosis.added = {friction, delay};
   const std::string text = internal::report::diagnosis_text(r);
   EXPECT_THAT(text, HasSubstr("| `motor_coulomb_friction` (cause open) |"));
-  EXPECT_THAT(text, HasSubstr("| `input_delay` (established with `motor_coulomb_friction`) |"));
+  EXPECT_TOLD(line_with(text, "| `input_delay` (established with"));
 }
 
 TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
@@ -63,13 +64,12 @@ TEST(DiagnosisWords, TheRankingSaysWhichRowTheCardTookAndWhy) {
   r.diagnosis.ranking[0].effect = "backlash";
   r.diagnosis.ranking[1].effect = "motor_coulomb_friction", r.diagnosis.ranking[1].remark = "at a bound";
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(text, HasSubstr("the error budget did, by what is left of the torque"));
+  EXPECT_TOLD(line_with(text, "the error budget did,"));
   EXPECT_THAT(text, HasSubstr("It begins with `motor_coulomb_friction`"));
-  EXPECT_THAT(text, HasSubstr(" | **in the card**; at a bound |"));
+  EXPECT_TOLD(line_with(text, "| **in the card**;"));
   EXPECT_THAT(text, Not(HasSubstr("Not in this table")));
   r.diagnosis.effects.emplace_back("load_dependent_friction");
-  EXPECT_THAT(internal::report::diagnosis_text(r),
-              HasSubstr(" Not in this table, which is of the first step: `load_dependent_friction`."));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "Not in this table,"));
   EXPECT_THAT(internal::report::diagnosis_ranking(r).reading,
               HasSubstr("decides, for motor Coulomb friction"));
   const auto panels = internal::report::diagnosis_figures(r).front().panels;
@@ -81,11 +81,8 @@ TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn)
   DiagnosisResult r = with_friction();
   r.diagnosis.measures = {{"residual torque", "N m", 0.2, 0.1, kNaN}};
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(
-      text,
-      HasSubstr("Missing torque: what the input applies and the model does not account for, rms on held-out "
-                "data below 8 Hz. The input applies 1.00 N·m in all."));
-  EXPECT_THAT(text, HasSubstr("| correcting torque | 200 mN·m | 100 mN·m | – |"));
+  EXPECT_TOLD(line_with(text, "Missing torque: what the"));
+  EXPECT_TOLD(line_with(text, "| correcting torque |"));
   EXPECT_THAT(text, Not(HasSubstr("esidual torque")));
   EXPECT_EQ(internal::report::diagnosis_budget(r).title, "Error budget: missing torque on held-out data");
 }
@@ -93,20 +90,17 @@ TEST(DiagnosisWords, WhatIsMissingAndWhatCorrectsTheObserverHaveNamesOfTheirOwn)
 /// The waterfall ends with all laws, the card with those that the model can have.
 TEST(DiagnosisWords, TheBudgetsFigureTellsTheTorqueOfTheModelBesideThatOfAllLaws) {
   DiagnosisResult r = with_friction();
-  EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
-              EndsWith("falls from 100 mN·m to 36.0 mN·m, 3.6 % of what the input applies."));
+  EXPECT_TOLD(internal::report::diagnosis_budget(r).reading);
   r.diagnosis.budget.remains = 0.02;
   r.diagnosis.budget.rungs.push_back({"resonance", "", false, 0.036, 0.02, 0.7, {0.6, 0.8}, 0.1, 0.7, kNaN});
-  EXPECT_THAT(internal::report::diagnosis_budget(r).reading,
-              EndsWith(", with laws that are not in the model; to 36.0 mN·m without them."));
+  EXPECT_TOLD(internal::report::diagnosis_budget(r).reading);
 }
 
 TEST(DiagnosisWords, WhatTheBudgetNamedRestsOnIt) {
   DiagnosisResult r = with_friction();
-  EXPECT_THAT(internal::report::diagnosis_text(r),
-              HasSubstr("The answer rests on the error budget and, of the motion, on this one: "));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "The answer rests on"));
   r.diagnosis.budget.rungs.clear();
-  EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("The answer rests on this one: "));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "The answer rests on"));
 }
 
 TEST(DiagnosisWords, WhatEndedAtABoundIsNoBias) {
@@ -114,12 +108,11 @@ TEST(DiagnosisWords, WhatEndedAtABoundIsNoBias) {
   r.diagnosis.blame = {{"motor_damping", "N m s/rad", 0.0, 0.023, BoundReached::kLower},
                        {"motor_inertia", "kg m^2", 0.02, 0.04}};
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(text,
-              HasSubstr("| `motor_damping` | at its lower bound, 0 N·m s/rad | 0.0230 N·m s/rad | – |"));
+  EXPECT_TOLD(line_with(text, "| `motor_damping` | at"));
   EXPECT_THAT(text, HasSubstr("| 50 % low |"));
   r.diagnosis.blame.front() = {"motor_damping",     "N m s/rad",         0.1, 5.0,
                                BoundReached::kNone, BoundReached::kUpper};
-  EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("| at its upper bound, 5.00 N·m s/rad | – |"));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "| at its upper"));
 }
 
 TEST(DiagnosisWords, ARankingWithoutProbabilitiesHasNoColumnOfThem) {
@@ -128,8 +121,7 @@ TEST(DiagnosisWords, ARankingWithoutProbabilitiesHasNoColumnOfThem) {
   r.diagnosis.ranking[0].effect = "motor_coulomb_friction";
   std::string text = internal::report::diagnosis_text(r);
   EXPECT_THAT(text, Not(HasSubstr("| effect | probability |")));
-  EXPECT_THAT(text,
-              HasSubstr(" None has a probability: these were learned on drives without an error budget."));
+  EXPECT_TOLD(line_with(text, "None has a probability:"));
   r.diagnosis.ranking[0].probability = 0.9, r.diagnosis.outside_probability = 0.1;
   EXPECT_THAT(internal::report::diagnosis_text(r), HasSubstr("| effect | probability |"));
 }
@@ -137,10 +129,7 @@ TEST(DiagnosisWords, ARankingWithoutProbabilitiesHasNoColumnOfThem) {
 TEST(DiagnosisWords, TheTableOfSizesHasTheWholeFreeRun) {
   DiagnosisResult r = with_friction();
   r.diagnosis.whole_run = WholeRun{0.407, 0.0412, 0.876};
-  EXPECT_THAT(
-      internal::report::diagnosis_text(r),
-      HasSubstr("| largest error of one free run through the whole recording (876 mrad of travel) | 407 "
-                "mrad | 41.2 mrad | – |"));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "| largest error of"));
 }
 
 TEST(DiagnosisWords, TheSpeedOfAPlaceIsToldToBeTheObservers) {
@@ -184,8 +173,7 @@ TEST(DiagnosisWords, TheRankingSaysWhatItRanksAndItsAxisFitsSmallShares) {
 TEST(DiagnosisWords, WhereNothingWasAddedNoColumnAndNoFallTellsOfIt) {
   const DiagnosisResult r = at_the_floor();
   const std::string text = internal::report::diagnosis_text(r);
-  EXPECT_THAT(text, HasSubstr("| measure (median over windows) | nominal model | floor |\n|---|---|---|\n"
-                              "| free run restarted every 0.5 s | 2.00 mrad | 0.0200 mrad |\n"));
+  EXPECT_TOLD(line_with(text, "| measure (median over"));
   EXPECT_THAT(text, Not(HasSubstr("with all that was added")));
   const auto figure = internal::report::diagnosis_budget(r);
   EXPECT_EQ(figure.reading, "The missing torque is 4.91 mN·m, 2.5 % of what the input applies.");
@@ -196,10 +184,7 @@ TEST(DiagnosisWords, TellsTheNumbersThatTheRecordingsContradict) {
   DiagnosisResult r = at_the_floor();
   EXPECT_THAT(internal::report::diagnosis_text(r), Not(HasSubstr("Numbers of your model")));
   r.diagnosis.refitted = {{"motor_damping", "N m s/rad", 0.1, 0.04, {0.0399, 0.0401}}};
-  EXPECT_THAT(internal::report::diagnosis_text(r),
-              HasSubstr("| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n| "
-                        "`motor_damping` | 0.100 N·m s/rad | 0.040000 N·m s/rad | 0.039900 to 0.040100 N·m "
-                        "s/rad |\n"));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_text(r), "| number | the"));
   r.diagnosis.refitted.push_back({"motor_inertia", "kg m^2", 0.00781, 0.0078088, {0.0078082, 0.0078094}});
   EXPECT_THAT(internal::report::diagnosis_text(r), Not(HasSubstr("| `motor_inertia` |"))) << "reads the same";
   r.diagnosis.refitted.pop_back();
@@ -217,7 +202,7 @@ TEST(DiagnosisWords, TheMapNamesTheCycleThatWasAdded) {
   t.dt = 1e-3;
   for (int i = 0; i < 1000; ++i) t.u.push_back(0.0), t.x1.push_back(std::sin(0.01 * i));
   t.torque_before = t.torque_after = t.error_before = t.error_after = t.x1;
-  EXPECT_THAT(internal::report::diagnosis_torque_map(r).reading, HasSubstr("No cycle over the motor angle"));
+  EXPECT_TOLD(line_with(internal::report::diagnosis_torque_map(r).reading, "No cycle over the"));
   AddedEffect& cogging = r.diagnosis.added.emplace_back();
   cogging.effect = "cogging_torque", cogging.parameters = {{"periods_per_turn", "1/rev", 12.0}};
   EXPECT_EQ(internal::report::diagnosis_torque_map(r).reading,

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "report/simulator.h"
+#include "support/told.h"
 
 namespace gapscope {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::line_with;
 
 SimulatorRow friction(FoundIn where, double drive, double simulator) {
   SimulatorRow row;
@@ -35,29 +37,25 @@ DiagnosisResult beside(const SimulatorRow& row) {
 
 TEST(SimulatorReport, TellsInWhichOfBothAnEffectIs) {
   const std::string both = internal::report::simulator_table(beside(friction(FoundIn::kBoth, 0.05, 0.02)));
-  EXPECT_THAT(both,
-              HasSubstr("| `motor_coulomb_friction` | 50.0 ± 1.0 mN·m | 20.0 mN·m | in both, with other "
-                        "amounts | 400 µrad | 75 % |"));
-  EXPECT_THAT(both, HasSubstr("| not told apart | – | – |"));
+  EXPECT_TOLD(line_with(both, "| `motor_coulomb_friction` | 50.0"));
+  EXPECT_TOLD(line_with(both, "| not told apart"));
   const std::string drive = internal::report::simulator_table(beside(friction(FoundIn::kDrive, 0.05, 0.0)));
-  EXPECT_THAT(drive, HasSubstr("| 50.0 ± 1.0 mN·m | none | only in the drive |"));
-  EXPECT_THAT(drive, HasSubstr("misses your simulator by 10.0 µrad"));
+  EXPECT_TOLD(line_with(drive, "| 50.0 ± 1.0"));
+  EXPECT_TOLD(line_with(drive, "misses your simulator by"));
 }
 
 TEST(SimulatorReport, ShowsOfWhatASideHasNotEveryAmountThatItsIntervalHolds) {
   SimulatorRow row = friction(FoundIn::kDrive, 0.05, 1e-4);
   row.numbers[0].simulator_ci95 = {-3e-4, 5e-4};
-  EXPECT_THAT(internal::report::simulator_table(beside(row)), HasSubstr("| none: 100 ± 400 µN·m |"));
+  EXPECT_TOLD(line_with(internal::report::simulator_table(beside(row)), "| none: 100 ±"));
   row.name = "load_dependent_friction";
   row.numbers = {{"level_nm", "N m", 0.0, 0.0, {}, {}},
                  {"ratio", "-", 0.3, 0.01, {0.28, 0.32}, {-0.01, 0.03}}};
-  EXPECT_THAT(internal::report::simulator_table(beside(row)),
-              HasSubstr("| level 0 N·m, ratio 0.300 ± 0.020 | none: ratio 0.010 ± 0.020 |"));
+  EXPECT_TOLD(line_with(internal::report::simulator_table(beside(row)), "| level 0 N·m,"));
   row.name = "cogging_torque";  // where a wave that is none begins says nothing
   row.numbers = {{"amplitude_nm", "N m", 0.05, 1e-4, {0.049, 0.051}, {-3e-4, 5e-4}},
                  {"phase_rad", "rad", 0.3, 1.0, {0.2, 0.4}, {-2.0, 4.0}}};
-  EXPECT_THAT(internal::report::simulator_table(beside(row)),
-              HasSubstr("| none: amplitude 100 ± 400 µN·m |"));
+  EXPECT_TOLD(line_with(internal::report::simulator_table(beside(row)), "| none: amplitude 100"));
 }
 
 TEST(SimulatorReport, HasTheRowsInTheOrderOfItsSentenceAndNoMinusBeforeAZero) {
@@ -67,7 +65,7 @@ TEST(SimulatorReport, HasTheRowsInTheOrderOfItsSentenceAndNoMinusBeforeAZero) {
   r.simulated->rows.insert(r.simulated->rows.begin() + 1, larger);
   const std::string text = internal::report::simulator_table(r);
   EXPECT_LT(text.find("| `motor_coulomb_friction`"), text.find("| `cogging_torque`"));
-  EXPECT_THAT(text, HasSubstr(" | 900 µrad | 0 % |"));
+  EXPECT_TOLD(line_with(text, "| 900 µrad |"));
 }
 
 TEST(SimulatorReport, DrawsDriveSimulatorAndModelWithTheDifferencesBelow) {

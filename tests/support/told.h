@@ -39,6 +39,7 @@ class ToldFile {
   }
 
   ::testing::AssertionResult holds(const std::string& test, const std::string& text) {
+    if (text.empty()) return ::testing::AssertionFailure() << test << " told nothing";
     std::vector<std::string>& told = told_[test];
     told.push_back(text);
     if (renews()) return ::testing::AssertionSuccess();
@@ -63,6 +64,14 @@ inline ::testing::AssertionResult is_told(const char* source, const std::string&
   const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
   return files.try_emplace(path.string(), path)
       .first->second.holds(std::string(test->test_suite_name()) + "." + test->name(), text);
+}
+
+/// The first line of a text that has this in it; empty: none has.
+inline std::string line_with(const std::string& text, const std::string& part) {
+  const std::size_t at = text.find(part);
+  if (at == text.npos) return "";
+  const std::size_t begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
+  return text.substr(begin, end - begin);
 }
 
 /// That a sentence is the one of the file, in the order in which a test tells them.

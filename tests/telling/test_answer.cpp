@@ -188,6 +188,7 @@ TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
   EXPECT_THAT(a.next_codes, ElementsAre("next.smaller_ramps"));
   open.lost_motion.levels.pop_back();
   EXPECT_THAT(of(&open, nullptr).next_codes, ElementsAre("next.two_levels"));
+  EXPECT_TRUE(answer_of({&open, nullptr, {}, {}, 0.03}).says("gap.beyond_travel")) << "of 30 mrad of travel";
   open.lost_motion.cause = LostMotionCause::kFriction, open.lost_motion.gap_limit = kNaN;
   EXPECT_TOLD(of(&open, nullptr).sentence);
 }

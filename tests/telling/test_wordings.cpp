@@ -37,7 +37,7 @@ Fact example_of(const std::string& key) {
     put(names("group", std::vector<std::string>{"cogging torque", "load unbalance"}));
     put(names("rivals", std::vector<std::string>{"input delay", "actuator lag"}));
     put(names("by", std::vector<std::string>{"6 σ if input delay is the cause", "9 σ if actuator lag is"}));
-    for (const auto& [key, text] : std::map<std::string, std::string>{
+    for (const auto& [name, text] : std::map<std::string, std::string>{
              {"why", "The model misses 31 % of what the torque does to the motion."},
              {"reason", "no impact stands out of the motion"},
              {"rejected", "the fitted model is rejected"},
@@ -77,7 +77,7 @@ Fact example_of(const std::string& key) {
              {"lost", "cogging torque"},
              {"truth", "input delay"},
              {"advice", "record anew with x1 of every row"}})
-      all.insert_or_assign(key, word(key, text));
+      all.insert_or_assign(name, word(name, text));
     return all;
   }();
   const auto found = facts.find(key);
@@ -97,8 +97,13 @@ std::string with_examples(const Wording& w, const char* wording) {
 
 TEST(Wordings, AreAllReadAloud) {
   for (const Wording& w : wordings()) {
-    if (*w.brief != '\0') EXPECT_TOLD(std::string(w.code) + ": " + with_examples(w, w.brief));
-    if (w.whole != nullptr) EXPECT_TOLD(std::string(w.code) + " in full: " + with_examples(w, w.whole));
+    const std::string code = w.code;
+    if (*w.brief != '\0') {
+      EXPECT_TOLD(code + ": " + with_examples(w, w.brief));
+    }
+    if (w.whole != nullptr) {
+      EXPECT_TOLD(code + " in full: " + with_examples(w, w.whole));
+    }
   }
 }
 
