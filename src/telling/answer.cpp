@@ -180,13 +180,14 @@ Said play(const Findings& f) {
 }
 
 /// Why the reference tells no gap.
-Told no_number(const FitSummary& fit) {
+/// @param said  that it is rejected
+Told no_number(const FitSummary& fit, bool said) {
   const FittedParameter* gap = fit.find("gap");
   Told told;
   if (gap == nullptr) told.push_back({"reference.one_body"});
   if (gap != nullptr && !fit.rejected() && !gap->estimated) told.push_back({"reference.gap_given"});
-  told.push_back({fit.rejected() && gap == nullptr ? "reference.rejected" : "reference.why",
-                  {word("why", fit.why.text())}});
+  told.push_back(
+      {fit.rejected() && !said ? "reference.rejected" : "reference.why", {word("why", fit.why.text())}});
   return told;
 }
 
@@ -206,7 +207,8 @@ Said by_model_alone(const Findings& f) {
                        word("reason", clause(f.model_free->reason))}});
   else if (a.told.empty() && rejects(f))
     a.told.push_back({"gap.not_known.rejected"});
-  if (f.reference != nullptr) add(a, no_number(*f.reference));
+  const bool said = has_code(a.told, "gap.not_known") && rejects(f);
+  if (f.reference != nullptr) add(a, no_number(*f.reference, said));
   if (a.told.empty()) a.told.push_back({"gap.not_estimated"});
   return a;
 }

@@ -198,7 +198,7 @@ TEST(DiagnosisReport, TheTorqueMapShowsWhatRemainsBesideWhatTheNominalModelLeave
   EXPECT_EQ(both.panels[0].series[0].x, both.panels[1].series[0].x);
   r.diagnosis.effects.clear();
   EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels.size(), 3u);
-  r.diagnosis.where.headline = "following the direction of motion, along the speed";
+  r.diagnosis.where.follows = {ResidualPattern::kDirection, ResidualPattern::kSpeed};
   EXPECT_EQ(internal::report::diagnosis_torque_map(r).panels[0].title, "Nominal model, over the speed");
 }
 

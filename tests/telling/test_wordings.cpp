@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 #include "gapscope/telling/statement.h"
@@ -84,13 +85,62 @@ Fact example_of(const std::string& key) {
   return found == facts.end() ? word(key, "<" + key + ">") : found->second;
 }
 
+/// Where a key stands for something else than in most wordings.
+std::optional<Fact> example_of(const std::string& code, const std::string& key) {
+  struct Other {
+    const char* codes;  ///< as they begin
+    Fact fact;
+  };
+  static const Other others[] = {
+      {"error.noise", number("floor", 0.018, "rad")},
+      {"error.repeats", number("floor", 0.018, "rad")},
+      {"error.floor", number("floor", 0.004, "N m")},
+      {"helps.left.records", number("floor", 0.004, "N m")},
+      {"helps.left.floor", number("floor", 0.004, "N m")},
+      {"helps.left", number("left", 0.02, "N m")},
+      {"next.do_not_rely", per_cent("left", 7.2)},
+      {"lost_motion", number("lost", 0.0338, "rad", {0.033, 0.0346})},
+      {"error.as_configured", word("judged", "simulated")},
+      {"error.as_configured", number("before", 0.017, "rad")},
+      {"error.as_configured", number("after", 0.0071, "rad")},
+      {"error.free_run", number("before", 0.33, "rad")},
+      {"error.free_run", number("after", 0.0154, "rad")},
+      {"error.closed_loop", number("before", 0.0152, "rad")},
+      {"error.closed_loop", number("after", 4.35e-4, "rad")},
+      {"helps.motion", number("before", 0.138, "rad")},
+      {"helps.motion", number("after", 2e-3, "rad")},
+      {"helps.no_nearer", number("before", 1.28e-3, "rad")},
+      {"helps.no_nearer", number("after", 1.42e-3, "rad")},
+      {"next.simulate", number("before", 0.147, "rad")},
+      {"next.simulate", number("after", 1.45, "rad")},
+      {"simulator.mended", number("error", 0.269, "rad")},
+      {"simulator.not_mended", number("error", 0.269, "rad")},
+      {"helps.simulator", number("error", 0.269, "rad")},
+      {"simulator.differs",
+       names("rows", std::vector<std::string>{"it has no cogging torque, where the drive "
+                                              "has 2 N",
+                                              "its mass is 2 kg where the drive's is 3 kg"})},
+      {"next.mend_simulator", names("rows", std::vector<std::string>{"cogging torque", "motor inertia"})},
+      {"tolerance.torque", per_cent("limit", 5.0)},
+      {"gap.not_followed", ratio("least", 10.0)},
+      {"next.estimate", names("held", std::vector<std::string>{"load_damping", "motor_damping"})},
+      {"next.estimate_gap", number("held", 0.08, "rad")},
+      {"next.experiment.record", word("input", "a sine of 0.5 units of u at 0.3 Hz")},
+      {"next.go_on", word("first", "Record both directions, too: without them causes stay open.")}};
+  std::optional<Fact> found;
+  for (const Other& other : others)
+    if (code.starts_with(other.codes) && other.fact.key == key) found = other.fact;
+  return found;
+}
+
 std::string with_examples(const Wording& w, const char* wording) {
   Statement s{w.code};
   const std::string text = wording;
   std::set<std::string> seen;
   for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
     const std::string key = text.substr(at + 1, text.find_first_of("}#:?", at) - at - 1);
-    if (key != "torque" && seen.insert(key).second) s.facts.push_back(example_of(key));
+    if (key != "torque" && seen.insert(key).second)
+      s.facts.push_back(example_of(w.code, key).value_or(example_of(key)));
   }
   return in_words(s, wording, Coordinates());
 }
