@@ -44,11 +44,15 @@ std::string evidence(const GapEstimate& g) {
 std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
   if (g.verdict == GapVerdict::kBacklash)
     return fmt::format("{} {} ({}, {})", estimate(g.gap, g.ci95, coordinates),
-                       g.quantity == GapQuantity::kGap ? "backlash" : "play at zero torque",
+                       g.quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque"
+                       : g.quantity == GapQuantity::kFirstGap       ? "backlash, the first gap"
+                                                                    : "backlash",
                        to_string(g.method), evidence(g));
   if (g.verdict == GapVerdict::kNone)
     return fmt::format("none: a gap above {} would have shown", coordinates.thousandths(g.none_above()));
-  return fmt::format("{}: {}", to_string(g.verdict), g.reason.text());
+  const bool bound = g.verdict == GapVerdict::kInconclusive && std::isfinite(g.gap_at_most);
+  return fmt::format("{}: {}{}", to_string(g.verdict), g.reason.text(),
+                     bound ? "; a gap is at most " + coordinates.thousandths(g.gap_at_most) + " wide" : "");
 }
 
 std::string lost_motion_line(const LostMotion& m, Coordinates coordinates) {

@@ -21,6 +21,18 @@ Comparison compare(const GapEstimate& model_free, const FitSummary& reference) {
   return c;
 }
 
+void take_for_first_gap(const FitSummary& reference, GapEstimate& g) {
+  constexpr double kMore = 0.125;  // of the reading: the widest half interval that is told with good trust
+  const FittedParameter* gap = reference.find("gap");
+  if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap || g.by_one_bound()) return;
+  if (gap == nullptr || reference.rejected() || !gap->estimated || !gap->identifiable) return;
+  if (!(reference.shown_interval(*gap).low > g.ci95.high) || !(gap->value > (1.0 + kMore) * g.gap)) return;
+  g.quantity = GapQuantity::kFirstGap;
+  g.trust = std::min(g.trust, GapTrust::kLimited);
+  std::erase_if(g.presumes, [](const Remark& r) { return r.code() == "one_gap"; });
+  g.tested.push_back({{"whole_gap", "it is the whole gap that a fitted model asks for"}, false});
+}
+
 double map_width(std::span<const Recording> recordings) {
   std::vector<double> delta;
   for (const Recording& r : recordings)

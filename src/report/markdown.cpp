@@ -73,7 +73,11 @@ std::string estimate_rows(const RunResult& run, const DiagnosisResult* diagnosis
   if (run.model_free) {
     const GapEstimate& g = *run.model_free;
     const bool play = g.quantity == GapQuantity::kPlayAtZeroTorque;
-    told(play ? "model-free (play at zero torque)" : "model-free", read_gap(g, unit), g.ci95,
+    const bool first = g.quantity == GapQuantity::kFirstGap;
+    told(play    ? "model-free (play at zero torque)"
+         : first ? "model-free (first gap)"
+                 : "model-free",
+         read_gap(g, unit), g.ci95,
          g.method == GapMethod::kLostMotion ? "motor position and torque" : "motor position");
   }
   if (run.model_free) {

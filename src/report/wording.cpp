@@ -28,6 +28,7 @@ std::string scientific(double value, int digits) {
 }
 
 std::string what_was_read(const GapEstimate& g) {
+  if (g.quantity == GapQuantity::kFirstGap) return "first of several gaps";
   return g.quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque" : "backlash gap";
 }
 

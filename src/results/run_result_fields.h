@@ -100,6 +100,7 @@ void fields(Archive& archive, GapEstimate& g) {
                                   {GapMethod::kLostMotion, "lost_motion"}});
   archive.choice("quantity", g.quantity,
                  Words<GapQuantity>{{GapQuantity::kGap, "gap"},
+                                    {GapQuantity::kFirstGap, "first_gap"},
                                     {GapQuantity::kPlayAtZeroTorque, "play_at_zero_torque"}});
   archive("gap_rad", g.gap);
   archive("std_rad", g.std);

@@ -258,6 +258,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
     r.second_encoder = validate_by_load(r.recordings, r.reference ? &*r.reference : nullptr);
   if (r.reference) limit_by(checked.of_fit, *r.reference);
   note_published_bound(r);
+  if (r.model_free && r.reference) take_for_first_gap(*r.reference, *r.model_free);
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
   if (r.reference) append(out.warnings, texts_of(r.reference->warnings));

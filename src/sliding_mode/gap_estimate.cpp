@@ -39,6 +39,8 @@ const char* to_string(GapQuantity quantity) {
   switch (quantity) {
     case GapQuantity::kGap:
       return "gap";
+    case GapQuantity::kFirstGap:
+      return "first_gap";
     case GapQuantity::kPlayAtZeroTorque:
       return "play_at_zero_torque";
   }
@@ -80,12 +82,14 @@ std::string GapEstimate::brief_report() const {
         return fmt::format("backlash: gap {:.4g} rad, passages scatter by {:.2g} rad ({})", gap, std,
                            reason.text());
       return fmt::format("backlash: {} {:.4g} rad, 95 % interval [{:.4g}, {:.4g}] rad ({})",
-                         quantity == GapQuantity::kGap ? "gap" : "play at zero torque", gap, ci95.low,
-                         ci95.high, reason.text());
+                         quantity == GapQuantity::kPlayAtZeroTorque ? "play at zero torque" : "gap", gap,
+                         ci95.low, ci95.high, reason.text());
     case GapVerdict::kNone:
       return fmt::format("none above {:.3g} rad ({})", none_above(), reason.text());
     case GapVerdict::kInconclusive:
-      return fmt::format("inconclusive: {}", reason.text());
+      return fmt::format(
+          "inconclusive: {}{}", reason.text(),
+          std::isfinite(gap_at_most) ? fmt::format("; a gap is at most {:.3g} rad wide", gap_at_most) : "");
     case GapVerdict::kNotRun:
       break;
   }

@@ -103,11 +103,6 @@ Remark few_passages(long used, double asked, long seen, double half_periods, con
   if (times > 2.0 || advice.code() == more_periods().code()) return text;
   return text + Remark("few_passages", ", or record {:.1f} times as long", {std::ceil(10.0 * times) / 10.0});
 }
-Remark at_most(double gap) {
-  return {"at_most",
-          " (if there is a gap, it is at most {:.2g} [rad] wide, unless the load was faster than the motor)",
-          {gap}};
-}
 Remark passages_scatter(double percent) {
   return {"passages_scatter",
           "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",

@@ -179,6 +179,15 @@ Said play(const Findings& f) {
   return model;
 }
 
+/// The model has the whole; where it tells no more than that it is larger, the reading is what is known.
+Said first(const Findings& f) {
+  const FittedParameter* gap = told_gap(f);
+  Said a = gap == nullptr ? from_model_free(f, AnswerTrust::kLimited)
+                          : from_reference(f, *gap, AnswerTrust::kLimited);
+  add(a, {{"gap.model_free.first", {length("other", f.model_free->gap, f.model_free->ci95)}}});
+  return a;
+}
+
 /// Why the reference tells no gap.
 /// @param said  that it is rejected
 Told no_number(const FitSummary& fit, bool said) {
@@ -207,6 +216,9 @@ Said by_model_alone(const Findings& f) {
                        word("reason", clause(f.model_free->reason))}});
   else if (a.told.empty() && rejects(f))
     a.told.push_back({"gap.not_known.rejected"});
+  if (f.model_free != nullptr && !f.model_free->lost_motion.read() &&
+      std::isfinite(f.model_free->gap_at_most))
+    a.told.push_back({"gap.at_most.if_any", {length("limit", f.model_free->gap_at_most)}});
   const bool said = has_code(a.told, "gap.not_known") && rejects(f);
   if (f.reference != nullptr) add(a, no_number(*f.reference, said));
   if (a.told.empty()) a.told.push_back({"gap.not_estimated"});
@@ -265,6 +277,7 @@ Statement step_without_model(const GapEstimate& g) {
   if (open && g.reason.has_code("auto_reads")) return {"next.bound_auto"};
   const std::size_t levels = g.lost_motion.levels.size();
   if (open && levels > 1) return {"next.smaller_ramps"};
+  if (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kFirstGap) return {"next.hold_output"};
   const bool play = g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque;
   return {open || (levels < 2 && play) ? "next.two_levels" : ""};
 }
@@ -323,6 +336,7 @@ Answer answer_of(const Findings& f) {
   Answer a = written(verdict == GapVerdict::kNone                               ? denied(f)
                      : verdict != GapVerdict::kBacklash                         ? by_model_alone(f)
                      : f.model_free->quantity == GapQuantity::kPlayAtZeroTorque ? play(f)
+                     : f.model_free->quantity == GapQuantity::kFirstGap         ? first(f)
                                                                                 : read(f),
                      f.coordinates);
   for (const Statement& step : steps(f)) {

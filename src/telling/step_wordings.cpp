@@ -127,6 +127,9 @@ constexpr Wording kSteps[] = {
      "Add ramps to half the smallest torque: the gap is at most the lost motion there, and wind-up shrinks "
      "with "
      "the torque."},
+    {"next.hold_output",
+     "Hold the output and record slow ramps of both directions: their lost motion is the play of all gaps "
+     "together."},
     {"next.two_levels",
      "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it is no "
      "gap."},

@@ -81,13 +81,14 @@ void count(const RunResult& result, const ChainCase& c, bool each, FamilyCounts&
   std::string line = fmt::format("{} {} of {:.4g}", c.family, c.options.seed, 1e3 * truth.low);
   if (truth.high > truth.low) line += fmt::format(" to {:.4g}", 1e3 * truth.high);
   if (c.drive.joints.size() > 1) line += fmt::format(" (first {:.4g})", 1e3 * first_gap(c.drive).low);
-  const auto add = [&](const char* name, const ToldGap& told, TrustCount& to) {
-    to.add(told, truth);
-    line += fmt::format(" | {} {}", name, in_words(told, truth));
+  const auto add = [&](const char* name, const ToldGap& told, const Interval& of, TrustCount& to) {
+    to.add(told, of);
+    line += fmt::format(" | {} {}", name, in_words(told, of));
   };
-  add("reading", told_by(*result.model_free), counts.reading);
-  if (result.reference) add("fit", told_by(*result.reference), counts.fit);
-  add("card", told_by(*result.answer), counts.card);
+  const bool first = result.model_free->quantity == GapQuantity::kFirstGap;
+  add("reading", told_by(*result.model_free), first ? first_gap(c.drive) : truth, counts.reading);
+  if (result.reference) add("fit", told_by(*result.reference), truth, counts.fit);
+  add("card", told_by(*result.answer), truth, counts.card);
   if (each) fmt::print("{}\n", line);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gapscope/diagnosis/comparison.h"
 #include "gapscope/telling/answer.h"
 #include "support/told.h"
 
@@ -52,6 +53,31 @@ FitSummary fitted(FitTrust trust, double gap, double half) {
 
 Answer of(const GapEstimate* g, const FitSummary* f, std::optional<bool> agree = {}) {
   return answer_of({g, f, agree, {}});
+}
+
+TEST(Answer, OfAFirstGapTheWholeIsToldByTheModelThatAsksForIt) {
+  GapEstimate g = reading(0.0247, 6e-4);
+  const FitSummary whole = fitted(FitTrust::kLimited, 0.0332, 3e-3),
+                   near = fitted(FitTrust::kLimited, 0.0258, 1e-4);
+  take_for_first_gap(near, g);
+  EXPECT_EQ(g.quantity, GapQuantity::kGap) << "within an eighth";
+  take_for_first_gap(whole, g);
+  ASSERT_EQ(g.quantity, GapQuantity::kFirstGap);
+  EXPECT_EQ(g.trust, GapTrust::kLimited);
+  const Answer a = of(&g, &whole);
+  EXPECT_EQ(a.from, AnswerSource::kReference);
+  EXPECT_EQ(a.trust, AnswerTrust::kLimited);
+  EXPECT_THAT(a.codes, ElementsAre("gap.reference", "gap.model_free.first"));
+  EXPECT_THAT(a.next_codes, ::testing::Contains("next.hold_output"));
+}
+
+TEST(Answer, OfWhatIsNotReadABoundIsTold) {
+  GapEstimate g = undecided();
+  g.gap_at_most = 0.05;
+  const Answer a = of(&g, nullptr);
+  EXPECT_TRUE(a.says("gap.at_most.if_any"));
+  EXPECT_DOUBLE_EQ(a.gap_at_most, 0.05);
+  EXPECT_EQ(a.trust, AnswerTrust::kNone);
 }
 
 TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {

@@ -11,7 +11,11 @@ namespace gapscope {
 
 enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
 enum class GapMethod { kImpact, kPaper, kLiteral, kLostMotion };
-enum class GapQuantity { kGap, kPlayAtZeroTorque };
+enum class GapQuantity {
+  kGap,
+  kFirstGap,  ///< of several in series, as a fitted model that asks for more says; the whole is larger
+  kPlayAtZeroTorque
+};
 
 /// What a lost motion consists of, as far as the loops tell.
 enum class LostMotionCause {

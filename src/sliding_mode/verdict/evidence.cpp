@@ -56,10 +56,7 @@ GapEstimate conclude(GapEvidence e) {
     estimate.gap_at_most = e.smallest_visible_gap;
     estimate.trust = GapTrust::kLimited;  // a load that is lighter, or held by what pulls, would not show
   }
-  if (!estimate.reason.empty() && !e.denies && std::isfinite(e.at_most)) {
-    estimate.gap_at_most = e.at_most;
-    estimate.reason += words::at_most(e.at_most);
-  }
+  if (!estimate.reason.empty() && !e.denies) estimate.gap_at_most = e.at_most;
   if (!estimate.reason.empty()) return estimate;
   const double std = e.parts.together(), share = kNormal95 * std / e.gap;
   const Remark uncertain = words::gap_uncertain(e.gap, 100.0 * share, mostly(e, share / kNarrow));
