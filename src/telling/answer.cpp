@@ -195,8 +195,11 @@ Told no_number(const FitSummary& fit, bool said) {
   Told told;
   if (gap == nullptr) told.push_back({"reference.one_body"});
   if (gap != nullptr && !fit.rejected() && !gap->estimated) told.push_back({"reference.gap_given"});
-  told.push_back(
-      {fit.rejected() && !said ? "reference.rejected" : "reference.why", {word("why", fit.why.text())}});
+  const bool told_so = said || !fit.rejected();
+  told.push_back({told_so          ? "reference.why"
+                  : gap == nullptr ? "reference.rejected"
+                                   : "reference.rejected.why",
+                  {word("why", fit.why.text())}});
   return told;
 }
 

@@ -58,6 +58,7 @@ constexpr Wording kWordings[] = {
     {"gap.not_estimated", "Nothing was estimated."},
     {"model_free.inconclusive", ""},
     {"reference.rejected", "The fitted model is rejected.", "The fitted model is rejected. {why}"},
+    {"reference.rejected.why", "", "The fitted model is rejected. {why}"},
     {"reference.tells_none", ""},
     {"reference.why", "", "{why}"},
     {"reference.one_body", "Backlash is not examined, as the model is a single body."},
