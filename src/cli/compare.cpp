@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
+#include "gapscope/changes/changes.h"
 #include "gapscope/report/changes_report.h"
 #include "gapscope/results/report_folder.h"
 
@@ -46,7 +47,7 @@ void compare(const CompareArguments& a) {
     stop_point();
     reports.push_back(read_drive_report(folder));
   }
-  const DriveChanges all = changes(reports);
+  const DriveChanges all = changes(reports, a.spread ? ReportOrder::kUnits : ReportOrder::kInTime);
   if (report) write_comparison(*report, all);
   print_warnings(all.warnings);
   if (!a.output.empty()) fmt::print("{:<12}{}\n", "report", a.output);
@@ -59,7 +60,7 @@ void add_compare(CommandLine& app) {
   auto arguments = std::make_shared<CompareArguments>();
   CommandLine command =
       app.add_command("compare", "The same drive in several reports: over months, before and after a repair");
-  command.add_option("DIR", arguments->folders, "folders of run, detect or fit, in order of time")
+  command.add_option("DIR", arguments->folders, "folders of run, detect, fit or diagnose, in order of time")
       .required()
       .values(2);
   command
@@ -69,20 +70,30 @@ void add_compare(CommandLine& app) {
       "--spread", arguments->spread,
       "the reports are of several axes or units: how far they lie apart, beside how far a fit does");
   command.footer(
-      "Reads DIR/result.json and what belongs to it: the model-free gap and every parameter that a "
-      "reference\n"
-      "has estimated, and sets each against the first report. The interval of a difference is that of both\n"
-      "standard errors together, 1.96 sqrt(s^2 + s^2). `changed` is what is more than chance at 5 % for all\n"
-      "comparisons taken together (Holm); `not beyond chance`: its own interval leaves zero out, but so "
-      "would\n"
-      "one in twenty; a gap that was denied may be anything up to the smallest that would have shown.\n"
+      "Reads DIR/result.json, DIR/diagnosis.json and what belongs to them, and sets every quantity against\n"
+      "the first report: the gap of the answer and of each source, the lost motion, friction and stiffness "
+      "of\n"
+      "the loop by torque level, every number that a fit has estimated, the missing torque and the amount "
+      "of\n"
+      "every effect that a diagnosis has added. A bound against a value is a comparison, too.\n"
+      "  changed  more than the errors of both, and what other torques alone can make, leave room for\n"
+      "  same     within the tolerance: tolerance: {gap: ...} of a report for gap and lost motion, else a\n"
+      "           tenth of the larger value\n"
+      "  open     the errors leave room for either\n"
+      "The first line tells the change that matters most. All rows share one error rate: with n differences\n"
+      "each interval is as wide as 1 - 0.05/n holds (Bonferroni), so that a word of any row is wrong in at\n"
+      "most one comparison of twenty; the printed interval of a row is its own 95 %.\n"
+      "Of two fits it tells which numbers must differ, with those that look alike; of four reports or more,\n"
+      "in order, the course of each quantity and since when it is not what it was; of units (--spread) "
+      "those\n"
+      "that are unlike the others.\n"
       "Warned of: other numbers given, another excitation, encoder or method, the same recording twice, a\n"
       "model that leaves more than the encoder explains, a result that was changed since it was written.\n"
       "Numbers of a rejected model are left out.\n"
       "Intervals are those of single recordings; what a drive does differently from day to day is not in\n"
       "them, so see a small change twice before you believe it.\n"
-      "Writes compare.json (units in the keys; rad means m on a translational axis), report.md and\n"
-      "gap_over_recordings.png into the folder of -o.\n\n"
+      "Writes compare.json (units in the keys; rad means m on a translational axis), report.md,\n"
+      "report.html and gap_over_recordings.png into the folder of -o.\n\n"
       "Example: gapscope compare reports/march reports/june reports/june_repaired -o reports/2026");
   command.action([arguments] { compare(*arguments); });
 }

@@ -14,6 +14,7 @@
 #include "gapscope/base/plain_name.h"
 #include "gapscope/base/shell_word.h"
 #include "gapscope/base/shown.h"
+#include "gapscope/changes/changes.h"
 #include "gapscope/commands/axis.h"
 #include "gapscope/commands/drive_folder.h"
 #include "gapscope/report/changes_report.h"

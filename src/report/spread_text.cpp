@@ -7,6 +7,7 @@
 
 #include "gapscope/base/normal.h"
 #include "gapscope/report/changes_report.h"
+#include "report/changes_words.h"
 
 namespace gapscope {
 namespace {
@@ -37,7 +38,8 @@ Spread spread_of(const DriveQuantity& q) {
 
 std::string cell(const Observation& o) {
   if (std::isfinite(o.value)) return fmt::format("{:.4g} ± {:.2g}", o.value, kNormal95 * o.std);
-  return std::isfinite(o.ci95.high) ? fmt::format("none > {:.3g}", o.ci95.high) : "-";
+  if (std::isfinite(o.at_most)) return fmt::format("< {:.4g}", o.at_most);
+  return std::isfinite(o.at_least) ? fmt::format("> {:.4g}", o.at_least) : "-";
 }
 
 bool begins_letter(char c) { return (c & 0xc0) != 0x80; }  // in UTF-8
@@ -64,17 +66,24 @@ std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x
 }  // namespace
 
 std::string spread_text(const DriveChanges& all) {
-  std::string text = padded("", kNameWidth);
+  std::string text;
+  if (all.order == ReportOrder::kUnits) {
+    text = internal::report::changes_headline(all) + ".\n";
+    for (const std::string& line : internal::report::order_lines(all)) text += "  " + line + "\n";
+    text += "\n";
+  }
+  text += padded("", kNameWidth);
   for (const std::string& report : all.reports)
     text += padded(first_letters(name_of(report), kCellWidth - 1), kCellWidth);
   text += padded("mean", 12) + padded("spread", 12) + "of a fit\n";
   for (const DriveQuantity& q : all.quantities) {
     const Spread s = spread_of(q);
-    const char* const from = q.from == "model_free" ? " (free)" : "";
-    text += padded(fmt::format("{}{}", q.key, from), kNameWidth);
+    const char* const from = q.from == "model_free" ? " (free)" : q.from == "answer" ? " (answer)" : "";
+    const std::string level = std::isfinite(q.level) ? fmt::format(" ±{:.3g}", q.level) : "";
+    text += padded(fmt::format("{}{}{}", q.key, level, from), kNameWidth);
     for (const Observation& o : q.observed) text += padded(cell(o), kCellWidth);
     text += padded(s.told > 0 ? number(s.mean) : "-", 12) + padded(number(s.between), 12) + number(s.within) +
-            " " + all.coordinates.shown_unit(q.unit) + "\n";
+            " " + internal::report::changes_unit(all, q) + "\n";
   }
   return text +
          "± is half of a 95 % interval; spread: standard deviation from one to the next, without what the "

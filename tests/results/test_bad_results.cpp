@@ -125,7 +125,7 @@ const std::vector<BadResult> kBadResults = {
     {"truth_as_number", "campaign", "\"model_free\": true", "\"model_free\": 1",
      "campaign.json:7: model_free is 1, expected true or false"},
     {"quantities_list", "compare", "\"quantities\": {", "\"quantities\": [], \"was\": {",
-     "compare.json:9: quantities is [], expected an object"},
+     "compare.json:14: quantities is [], expected an object"},
     {"coordinates", "compare", "\"rotation\"", "\"sideways\"",
      "compare.json:4: coordinates is \"sideways\", expected one of rotation, translation"},
     {"cut_off", "score", "\"confusion\"", "\"conf", "blind.json:"},

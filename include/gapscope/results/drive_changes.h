@@ -1,98 +1,137 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/reference/fit_summary.h"
-#include "gapscope/sliding_mode/gap_estimate.h"
 
 namespace gapscope {
 
-/// With what a recording was made, as far as its columns tell.
-struct ExcitationFacts {
-  std::string file;
-  int samples = 0;
-  double rate = kNaN;             ///< [Hz]
-  double quantum = kNaN;          ///< of the encoder [rad]; 0: unknown
-  double input_rms = kNaN;        ///< [unit of u]
-  double input_peak = kNaN;       ///< [unit of u]
-  double input_frequency = kNaN;  ///< half the rate at which u crosses its mean, with hysteresis [Hz]
-  double position_rms = kNaN;     ///< [rad]
-};
-
-/// What one folder of `run`, `detect` or `fit` says of a drive; a part that was not asked for is absent.
-struct DriveReport {
-  std::string folder;
-  std::string name;           ///< of the configuration
-  std::string version;        ///< of gapscope
-  std::string configuration;  ///< resolved; empty in files that were written before it was stored
-  Coordinates coordinates;    ///< of a translation: rad and N·m mean m and N
-  std::optional<GapEstimate> model_free;
-  std::optional<FitSummary> reference;  ///< without its traces
-  std::vector<ExcitationFacts> recordings;
-  std::vector<std::string> doubts = {};  ///< what is stored is not what gapscope wrote, as sentences
-};
-
-/// A quantity in one report.
+/// A quantity in one report: a value, or what it is at most or at least, or nothing.
 struct Observation {
   double value = kNaN;
-  double std = kNaN;   ///< half the width of the interval over kNormal95, where that is wider
-  Interval ci95;       ///< of a gap that was denied: from 0 to the smallest that would have shown
-  std::string remark;  ///< why there is no value, or none to rely on; empty: there is one
+  double std = kNaN;       ///< half the width of the interval over kNormal95, where that is wider
+  Interval ci95;           ///< of the value, with what admissible laws of contact and friction differ by
+  std::string remark;      ///< why there is no value, or none to rely on; empty: there is one
+  double at_most = kNaN;   ///< where it has no value: no larger than this
+  double at_least = kNaN;  ///< where it has no value: no smaller than this
+  std::string trust = "";  ///< "good", "limited", "none"; empty: its source does not say
+
+  bool has_value() const { return value == value; }
+  bool has_bound() const { return at_most == at_most || at_least == at_least; }
 };
 
-enum class ChangeVerdict { kUntold, kNotSeen, kChance, kChanged };
+enum class ChangeVerdict { kOpen, kSame, kChanged };
 
-/// "cannot be told", "no change seen", "not beyond chance", "changed"
-const char* to_string(ChangeVerdict verdict);
+/// What a verdict rests on.
+enum class ChangeReason {
+  kUntold,         ///< one of the two has neither a value nor a bound
+  kNoInterval,     ///< one of the two has a value whose error is not known
+  kBeyondError,    ///< more than the errors of both leave room for
+  kWithin,         ///< all that the errors leave room for is within the tolerance
+  kTooWide,        ///< the errors leave room for no change and for one that matters
+  kTheRecordings,  ///< beyond the errors, but the recordings differ by as much as explains it
+};
+
+const char* to_string(ChangeVerdict verdict);  ///< "open", "same", "changed"
 
 /// A quantity in one report less the same in the first one.
 struct Change {
-  double difference = kNaN;
-  Interval ci95;    ///< from √(σ² + σ²); of a denied gap: all that the two intervals leave possible
-  double p = kNaN;  ///< of a difference that large between two equal values [-]
-  ChangeVerdict verdict = ChangeVerdict::kUntold;
+  double difference = kNaN;    ///< NaN: one of the two is a bound
+  Interval ci95;               ///< NaN on a side that a bound leaves open
+  Interval together;           ///< the same, wide enough that those of all rows hold in 95 %
+  double p = kNaN;             ///< of a difference that large between two equal values [-]
+  double margin = kNaN;        ///< a difference up to this is none that matters
+  double by_recordings = 0.0;  ///< how much of the difference other torques alone can make
+  ChangeVerdict verdict = ChangeVerdict::kOpen;
+  ChangeReason reason = ChangeReason::kUntold;
 };
 
 /// A quantity over all reports.
 struct DriveQuantity {
-  std::string key;   ///< "gap", "play_at_zero_torque", "load_coulomb_friction", ... as in the YAML
-  std::string from;  ///< "model_free" or "reference"
-  std::string unit;  ///< of a rotational drive
+  std::string key;                    ///< "gap", "lost_motion", "load_coulomb_friction", ... as in the YAML
+  std::string from;                   ///< "answer", "model_free", "reference" or "diagnosis"
+  std::string unit;                   ///< of a rotational drive; "u": the unit of the input
   std::vector<Observation> observed;  ///< one for each report
   std::vector<Change> changes;        ///< one for each report after the first
+  double level = kNaN;                ///< largest |u| of the ramps that it was read from [unit of u]
+
+  bool is_gap() const { return key == "gap"; }
+  bool is_play() const { return key == "gap" || key == "lost_motion"; }
 };
+
+/// The mean quasi-static loop of one report at one torque level, for the figure.
+struct DrivenLoop {
+  int report = 0;             ///< its place, from 0
+  double level = kNaN;        ///< that of the quantities read from it [unit of u]
+  std::vector<double> u, x1;  ///< closed, x1 about its middle [unit of u, rad]
+};
+
+/// What the fits of two reports say of which numbers differ; not asked: not two fits that can be relied on.
+enum class WhichVerdict { kNotAsked, kNone, kNamed };
+
+/// A number that must differ, and what acts alike and is in neither fit: one of them may in its place.
+struct DifferingNumber {
+  std::string key;
+  std::vector<std::string> look_alikes;
+  double p = kNaN;  ///< of a difference so large between two equal numbers [-]
+};
+
+struct WhichDiffers {
+  WhichVerdict verdict = WhichVerdict::kNotAsked;
+  std::vector<DifferingNumber> numbers;  ///< the surest first
+  std::vector<std::string> compared;  ///< numbers that both fits determine; those not named need not differ
+  double p_same = kNaN;               ///< that none differs: the least p times their count, at most 1
+};
+
+/// A quantity in the order of the reports.
+struct QuantityCourse {
+  std::string key, from, unit;
+  double level = kNaN;
+  double slope = kNaN;  ///< from report to report
+  Interval slope_ci95;
+  int since = -1;  ///< place of the first report where it is not what it was; -1: no change is seen
+  double before = kNaN, after = kNaN;  ///< means on both sides of where they differ most
+  Interval step_ci95;                  ///< of `after` less `before`
+};
+
+/// A unit that is unlike the others.
+struct OddUnit {
+  int report = -1;
+  std::string key, from;
+  double level = kNaN;
+  double distance = kNaN;  ///< from the others, as a normal number of that probability
+};
+
+/// What the reports are of.
+enum class ReportOrder { kInTime, kUnits };
 
 /// The same drive over months, before and after a repair.
 struct DriveChanges {
   std::string version;        ///< of gapscope
   std::string configuration;  ///< of each report the name, the version and the hash of its configuration
   Coordinates coordinates;
+  std::string input_unit;            ///< of u, as it was declared; empty: it was not
   std::vector<std::string> reports;  ///< their folders
   std::vector<DriveQuantity>
-      quantities;    ///< that at least one report gives or denies; what was given to it does not count
-  int compared = 0;  ///< differences that have a p
-  std::vector<std::string> warnings;  ///< why values may differ though the drive does not
+      quantities;          ///< that at least one report gives or bounds; what was given to it does not count
+  int compared = 0;        ///< differences that have an interval: the rows that share one error rate
+  double quantile = kNaN;  ///< half width of `together` in standard errors
+  int lead = -1;           ///< place of the quantity that is told first; -1: none has changed
+  std::vector<std::string> codes;  ///< "changed.model_free.lost_motion.fell", ...: what is told, first first
+  std::vector<DrivenLoop> loops;
+  ReportOrder order = ReportOrder::kInTime;
+  std::vector<WhichDiffers> which;      ///< one for each report after the first
+  std::vector<QuantityCourse> courses;  ///< in time, of quantities that four reports or more have
+  std::vector<OddUnit> odd;             ///< of units, the farthest first
+  std::vector<std::string> warnings;    ///< why values may differ though the drive does not
 
-  const DriveQuantity* find(const std::string& from, const std::string& key) const;  ///< nullptr if untold
+  /// The first of that name; nullptr if untold.
+  const DriveQuantity* find(const std::string& from, const std::string& key) const;
 };
 
-/// @throws ConfigError with file, what is wrong and what was expected, where there is no result or a damaged
-/// one
-DriveReport read_drive_report(const std::string& folder);
-
-/// Sets every report against the first one. Changed is what differs by more than both standard errors carry,
-/// at 5 % for all comparisons together (Holm, Scandinavian Journal of Statistics 6, 1979): with twenty of
-/// them, one interval of 95 % leaves zero out by chance alone. Intervals are those of single recordings: what
-/// a drive does differently from day to day is not in them.
-/// @throws ConfigError for reports in different coordinates, std::logic_error for fewer than two
-DriveChanges changes(std::span<const DriveReport> reports);
-
-/// compare.json of a folder (schema gapscope.compare/1).
+/// compare.json of a folder (schema gapscope.compare/2).
 /// @throws std::runtime_error naming what cannot be written.
 void write_drive_changes(const std::string& folder, const DriveChanges& changes);
 

@@ -1,11 +1,14 @@
+#include "gapscope/changes/drive_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "changes/loops.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/results/drive_changes.h"
+#include "gapscope/results/diagnosis_result.h"
 #include "gapscope/results/run_result.h"
 #include "results/file_list.h"
 
@@ -69,25 +72,44 @@ void add_doubts(const std::string& folder, DriveReport& report) {
     doubt_outside(p.key, p.value, report.reference->shown_interval(p), report);
 }
 
+void take_estimate(const std::string& folder, DriveReport& report) {
+  RunResult run = read_run_result(folder);
+  report.name = run.name, report.version = run.version;
+  report.configuration = std::move(run.configuration);
+  report.coordinates = run.coordinates;
+  report.answer = std::move(run.answer), report.input = std::move(run.input);
+  report.model_free = std::move(run.model_free);
+  report.reference = std::move(run.reference);
+  for (const Recording& r : run.recordings) report.recordings.push_back(excited(r));
+  if (report.model_free) {
+    report.loops = internal::changes::loop_facts(report.model_free->lost_motion, run.recordings);
+    report.model_free->traces.clear();
+  }
+  if (report.reference) report.reference->traces.clear();
+  add_doubts(folder, report);
+}
+
+/// @param alone  there is no estimate in the folder
+void take_diagnosis(const std::string& folder, bool alone, DriveReport& report) {
+  DiagnosisResult diagnosed = read_diagnosis_result(folder);
+  if (alone) {
+    report.name = diagnosed.name, report.version = diagnosed.version;
+    report.configuration = std::move(diagnosed.configuration);
+    report.coordinates = diagnosed.coordinates, report.input = std::move(diagnosed.input);
+  }
+  if (diagnosed.answer) report.answer = std::move(diagnosed.answer);
+  report.diagnosis = std::move(diagnosed.diagnosis);
+}
+
 }  // namespace
 
 DriveReport read_drive_report(const std::string& folder) {
-  namespace fs = std::filesystem;
-  if (!fs::exists(folder + "/result.json") && fs::exists(folder + "/diagnosis.json"))
-    throw ConfigError(folder, "holds a diagnosis alone, expected a result of run, detect or fit to compare");
-  RunResult run = read_run_result(folder);
+  const bool diagnosed = std::filesystem::exists(folder + "/diagnosis.json");
+  const bool estimated = std::filesystem::exists(folder + "/result.json");
   DriveReport report;
   report.folder = folder;
-  report.name = run.name;
-  report.version = run.version;
-  report.configuration = std::move(run.configuration);
-  report.coordinates = run.coordinates;
-  report.model_free = std::move(run.model_free);
-  if (report.model_free) report.model_free->traces.clear();
-  report.reference = std::move(run.reference);
-  if (report.reference) report.reference->traces.clear();
-  for (const Recording& r : run.recordings) report.recordings.push_back(excited(r));
-  add_doubts(folder, report);
+  if (estimated || !diagnosed) take_estimate(folder, report);
+  if (diagnosed) take_diagnosis(folder, !estimated, report);
   return report;
 }
 

@@ -1,4 +1,4 @@
-#include "results/drive_differences.h"
+#include "changes/differences.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gapscope::internal::results {
+namespace gapscope::internal::changes {
 namespace {
 
 constexpr double kUnexplained = 3.0;  ///< prediction error over the floor: the model is not the drive
@@ -67,9 +67,11 @@ void compare_excitation(const DriveReport& first, const DriveReport& r, Lines& l
   add_if_other("sampling rate", "Hz", b.rate, a.rate, kSameInput, other);
   add_if_other("encoder quantum", r.coordinates.position_unit(), b.quantum, a.quantum, kSameInput, other);
   if (!other.empty())
-    lines.push_back(fmt::format(
-        "{}: another excitation or another encoder than in {} ({}): part of a change may be theirs", r.folder,
-        first.folder, fmt::join(other, ", ")));
+    lines.push_back(with_input_unit(
+        fmt::format(
+            "{}: another excitation or another encoder than in {} ({}): part of a change may be theirs",
+            r.folder, first.folder, fmt::join(other, ", ")),
+        r.input.value_or(InputFacts{})));
 }
 
 bool same_samples(const ExcitationFacts& a, const ExcitationFacts& b) {
@@ -129,4 +131,4 @@ Lines differences_of_making(std::span<const DriveReport> reports) {
   return lines;
 }
 
-}  // namespace gapscope::internal::results
+}  // namespace gapscope::internal::changes

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace gapscope::internal::changes {
+
+/// Probability of a standard normal number that far from zero or farther, on either side.
+double normal_beyond(double z);
+
+/// Two-sided quantile of a normal distribution: exceeded with probability p on both sides together.
+double two_sided_quantile(double p);
+
+/// The normal number that is as improbable as Student's t (Wallace, Annals of Mathematical Statistics 30,
+/// 1959).
+double normal_of_student(double t, double freedom);
+
+}  // namespace gapscope::internal::changes

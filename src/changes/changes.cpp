@@ -1,0 +1,143 @@
+#include "gapscope/changes/changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+#include "changes/differences.h"
+#include "changes/judge.h"
+#include "changes/observations.h"
+#include "changes/series.h"
+#include "changes/which.h"
+#include "gapscope/base/errors.h"
+#include "gapscope/base/require.h"
+#include "gapscope/base/version.h"
+#include "gapscope/results/sha256.h"
+
+namespace gapscope {
+namespace {
+
+using internal::changes::change_between;
+
+void require_same_coordinates(std::span<const DriveReport> reports) {
+  for (const DriveReport& r : reports)
+    if (r.coordinates != reports.front().coordinates)
+      throw ConfigError(
+          r.folder + "/result.json",
+          fmt::format("has coordinates: {}, expected {} as in {}: reports of one drive", r.coordinates.name(),
+                      reports.front().coordinates.name(), reports.front().folder));
+}
+
+/// What the comparison is of, wherever the folders lie.
+std::string made_from(std::span<const DriveReport> reports) {
+  std::string text =
+      "# The reports that are compared, in order; the hash is that of the configuration of each.\n";
+  for (const DriveReport& r : reports)
+    text += fmt::format("- {{name: {}, version: {}, configuration_sha256: {}}}\n", r.name, r.version,
+                        r.configuration.empty() ? "null" : sha256(r.configuration));
+  return text;
+}
+
+/// A loop of friction and compliance grows up to the square of the torque; a gap within it does not.
+double by_other_torque(const DriveReport& first, const DriveReport& now, double level) {
+  const auto at = [&](const DriveReport& r) -> const LostMotionLevel* {
+    if (r.model_free)
+      for (const LostMotionLevel& l : r.model_free->lost_motion.levels)
+        if (internal::changes::same_level(l.amplitude, level)) return &l;
+    return nullptr;
+  };
+  const LostMotionLevel *a = at(first), *b = at(now);
+  if (a == nullptr || b == nullptr) return 0.0;
+  const auto without_gap = [](const LostMotionLevel& l) { return std::max(0.0, l.lost_motion - l.free_run); };
+  const double ratio = b->amplitude / a->amplitude;
+  return std::abs(ratio * ratio - 1.0) * std::min(without_gap(*a), without_gap(*b));
+}
+
+void take_differences(std::span<const DriveReport> reports, DriveQuantity& q) {
+  for (std::size_t i = 1; i < reports.size(); ++i) {
+    Change c = change_between(q.observed.front(), q.observed[i]);
+    if (q.key == "lost_motion") c.by_recordings = by_other_torque(reports.front(), reports[i], q.level);
+    q.changes.push_back(c);
+  }
+}
+
+/// The first that was stated.
+std::optional<double> tolerance_of(std::span<const DriveReport> reports) {
+  for (const DriveReport& r : reports)
+    if (r.answer && r.answer->tolerance.gap) return r.answer->tolerance.gap;
+  return std::nullopt;
+}
+
+/// How a changed row is told: plays first, of them those with two values, then by how far beyond its errors
+/// it is.
+double rank(const DriveQuantity& q) {
+  const Change& c = q.changes.back();
+  const double beyond = std::min(-std::log10(std::max(c.p, 1e-300)), 300.0);
+  return (q.is_play() ? 1000.0 : 0.0) + (std::isfinite(c.difference) ? 500.0 : 0.0) + beyond;
+}
+
+/// What is told of the last report: "changed.model_free.lost_motion.fell".
+void put_first_first(DriveChanges& all) {
+  std::vector<int> changed;
+  for (int i = 0; i < std::ssize(all.quantities); ++i)
+    if (all.quantities[i].changes.back().verdict == ChangeVerdict::kChanged) changed.push_back(i);
+  std::ranges::stable_sort(changed, std::greater{}, [&](int i) { return rank(all.quantities[i]); });
+  for (const int i : changed) {
+    const DriveQuantity& q = all.quantities[i];
+    const bool rose = std::isfinite(q.changes.back().together.low) && q.changes.back().together.low > 0.0;
+    all.codes.push_back(fmt::format("changed.{}.{}.{}", q.from, q.key, rose ? "rose" : "fell"));
+  }
+  if (!changed.empty()) all.lead = changed.front();
+  for (const QuantityCourse& c : all.courses)
+    if (c.since >= 0)
+      all.codes.push_back(fmt::format("since.{}.{}.{}", c.from, c.key, c.after > c.before ? "rose" : "fell"));
+  for (const OddUnit& o : all.odd) all.codes.push_back(fmt::format("odd.{}.{}", o.from, o.key));
+  if (all.codes.empty()) all.codes.emplace_back(all.compared == 0 ? "nothing_to_compare" : "no_change_seen");
+}
+
+/// Those of one level under one level.
+std::vector<DrivenLoop> loops_of(std::span<const DriveReport> reports, const DriveChanges& all) {
+  std::vector<DrivenLoop> loops;
+  for (const DriveQuantity& q : all.quantities)
+    for (std::size_t i = 0; q.key == "lost_motion" && i < reports.size(); ++i)
+      for (const LoopFacts& l : reports[i].loops)
+        if (internal::changes::same_level(l.amplitude, q.level) && !l.u.empty())
+          loops.push_back({static_cast<int>(i), q.level, l.u, l.x1});
+  return loops;
+}
+
+std::string input_unit_of(std::span<const DriveReport> reports) {
+  for (const DriveReport& r : reports)
+    if (r.input && !r.input->unit.empty()) return r.input->unit;
+  return "";
+}
+
+}  // namespace
+
+DriveChanges changes(std::span<const DriveReport> reports, ReportOrder order) {
+  GAPSCOPE_REQUIRE(reports.size() >= 2);
+  require_same_coordinates(reports);
+  DriveChanges all;
+  all.version = version();
+  all.configuration = made_from(reports);
+  all.coordinates = reports.front().coordinates;
+  all.input_unit = input_unit_of(reports);
+  for (const DriveReport& r : reports) all.reports.push_back(r.folder);
+  all.quantities = internal::changes::observed_quantities(reports);
+  for (DriveQuantity& q : all.quantities) take_differences(reports, q);
+  internal::changes::give_verdicts(all, tolerance_of(reports));
+  all.order = order;
+  for (std::size_t i = 1; i < reports.size(); ++i)
+    all.which.push_back(internal::changes::which_differs(reports.front(), reports[i]));
+  if (order == ReportOrder::kInTime) all.courses = internal::changes::courses(all);
+  if (order == ReportOrder::kUnits) all.odd = internal::changes::odd_units(all);
+  put_first_first(all);
+  all.loops = loops_of(reports, all);
+  all.warnings = internal::changes::differences_of_making(reports);
+  return all;
+}
+
+}  // namespace gapscope
