@@ -28,8 +28,7 @@ Interval room_of(const Observation& o, double quantile) {
     const Reach r = reach_of(o, quantile);
     return {o.value - r.below, o.value + r.above};
   }
-  if (std::isfinite(o.at_least)) return {o.at_least, kInfinity};
-  return {0.0, o.at_most};
+  return {std::isfinite(o.at_least) ? o.at_least : 0.0, std::isfinite(o.at_most) ? o.at_most : kInfinity};
 }
 
 Interval interval_of(const Observation& first, const Observation& now, double quantile) {

@@ -50,16 +50,34 @@ Observation answered(const DriveReport& r) {
   return o;
 }
 
-Observation read_gap(const DriveReport& r) {
-  if (!r.model_free) return untold("not asked for");
-  const GapEstimate& g = *r.model_free;
-  if (g.verdict == GapVerdict::kNone) return at_most(g.none_above(), "none is seen");
-  if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap)
-    return at_most(g.gap_at_most, g.verdict == GapVerdict::kBacklash ? "the play was read" : "inconclusive");
+Observation read_as(const GapEstimate& g) {
   const bool scatter = g.method == GapMethod::kLiteral;  // which is no error of the mean
   Observation o = told(g.gap, scatter ? kNaN : g.std, g.ci95);
   o.trust = to_string(g.trust);
   return o;
+}
+
+/// Of several gaps in series.
+Observation first_gap(const DriveReport& r) {
+  if (!r.model_free) return untold("not asked for");
+  const GapEstimate& g = *r.model_free;
+  const bool read = g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kFirstGap;
+  return read ? read_as(g) : untold("no signs of several gaps");
+}
+
+/// Where the first of several was read, the whole is no smaller.
+Observation read_gap(const DriveReport& r) {
+  if (!r.model_free) return untold("not asked for");
+  const GapEstimate& g = *r.model_free;
+  if (g.verdict == GapVerdict::kNone) return at_most(g.none_above(), "none is seen");
+  if (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kFirstGap) {
+    Observation o = at_most(g.gap_at_most, "the first of several was read");
+    o.at_least = g.ci95.low;
+    return o;
+  }
+  if (g.verdict != GapVerdict::kBacklash || g.quantity != GapQuantity::kGap)
+    return at_most(g.gap_at_most, g.verdict == GapVerdict::kBacklash ? "the play was read" : "inconclusive");
+  return read_as(g);
 }
 
 Observation lost_at(const DriveReport& r, double level) {
@@ -214,6 +232,7 @@ std::vector<DriveQuantity> observed_quantities(Reports reports) {
   std::vector<DriveQuantity> all;
   add(reports, named("gap", "answer", "rad"), answered, all);
   add(reports, named("gap", "model_free", "rad"), read_gap, all);
+  add(reports, named("first_gap", "model_free", "rad"), first_gap, all);
   add_loops(reports, all);
   for (DriveQuantity& q : fitted_numbers(reports)) {
     const std::string key = q.key;

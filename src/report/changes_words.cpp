@@ -118,7 +118,7 @@ std::string changes_unit(const DriveChanges& all, const DriveQuantity& q) {
 
 std::string quantity_name(const DriveChanges& all, const DriveQuantity& q) {
   const bool own = q.key == "lost_motion" || q.key == "loop_friction" || q.key == "flank_stiffness" ||
-                   q.key == "missing_torque" || q.key == "gap";
+                   q.key == "missing_torque" || q.key == "gap" || q.key == "first_gap";
   std::string name = own ? replaced(q.key, "_", " ") : q.key;
   if (q.key == "missing_torque") name = std::string("missing ") + all.coordinates.torque_word();
   if (std::isfinite(q.level)) name += fmt::format(" at ±{}", quantity(q.level, unit_of_u(all)));
@@ -127,6 +127,8 @@ std::string quantity_name(const DriveChanges& all, const DriveQuantity& q) {
 
 std::string observed_text(const Observation& o, const std::string& unit) {
   if (o.has_value()) return plus_minus(o.value, o.ci95, unit);
+  if (std::isfinite(o.at_most) && std::isfinite(o.at_least))
+    return interval_text({o.at_least, o.at_most}, unit);
   if (std::isfinite(o.at_most)) return "at most " + quantity(o.at_most, unit);
   if (std::isfinite(o.at_least)) return "at least " + quantity(o.at_least, unit);
   return o.remark;

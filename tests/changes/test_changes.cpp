@@ -206,6 +206,17 @@ TEST(Changes, ABoundAgainstAValueIsAComparison) {
             ChangeReason::kUntold);
 }
 
+TEST(Changes, WhereTheFirstOfSeveralWasReadTheWholeIsNoSmaller) {
+  DriveReport first = report("b", 0.030, 1e-4);
+  first.model_free->quantity = GapQuantity::kFirstGap;
+  const DriveChanges c = compared({report("a", 0.020, 1e-4), first});
+  const DriveQuantity& gap = quantity(c, "model_free", "gap");
+  EXPECT_NEAR(gap.observed[1].at_least, 0.030 - 1.96e-4, 1e-12);
+  EXPECT_EQ(gap.changes[0].verdict, ChangeVerdict::kChanged);
+  EXPECT_TRUE(std::isnan(gap.changes[0].ci95.high));
+  EXPECT_EQ(quantity(c, "model_free", "first_gap").changes[0].reason, ChangeReason::kUntold);
+}
+
 TEST(Changes, TwoBoundsAreTheSameOnlyWithinAStatedTolerance) {
   DriveReport before = report("a", kNaN, kNaN), after = report("b", kNaN, kNaN);
   for (DriveReport* r : {&before, &after}) {

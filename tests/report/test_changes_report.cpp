@@ -7,7 +7,6 @@
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"
-#include "support/told.h"
 
 namespace gapscope {
 namespace {

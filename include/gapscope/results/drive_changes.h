@@ -57,8 +57,7 @@ struct DriveQuantity {
   std::vector<Change> changes;        ///< one for each report after the first
   double level = kNaN;                ///< largest |u| of the ramps that it was read from [unit of u]
 
-  bool is_gap() const { return key == "gap"; }
-  bool is_play() const { return key == "gap" || key == "lost_motion"; }
+  bool is_play() const { return key == "gap" || key == "first_gap" || key == "lost_motion"; }
 };
 
 /// The mean quasi-static loop of one report at one torque level, for the figure.
