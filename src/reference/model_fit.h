@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -106,6 +107,11 @@ struct ModelRun {
 /// Σ weight · parameter.
 using WeightedSum = std::vector<std::pair<ParameterId, double>>;
 
+/// What a model leaves of several things, one vector for each, in any unit; none at all: its motion diverges.
+/// For their slopes a caller may leave out what costs much and hardly changes these.
+enum class ErrorsFor { kValue, kSlope };
+using ErrorKinds = std::function<std::vector<std::vector<double>>(const ModelRun&, ErrorsFor)>;
+
 /// What a fit knows of its free numbers.
 struct StandardErrors {
   std::vector<std::pair<ParameterId, double>>
@@ -177,6 +183,13 @@ class ModelFit {
   /// where the model is not the drive: its free run says nothing of the numbers.
   /// @param iterations of each local search at most, see FitOptions::max_iterations
   std::optional<SettledFit> settled(const FitPoint& at, int iterations) const;
+
+  /// Moves the free numbers down the mean log of the sizes of errors that a caller defines, by differences;
+  /// initial states stay. Nothing where no step goes down.
+  /// @param kinds  called by several threads at a time
+  /// @param held   numbers that stay, too
+  std::optional<FitPoint> lessen(const FitPoint& from, const ErrorKinds& kinds,
+                                 std::span<const ParameterId> held, int iterations, int threads) const;
 
   /// The model with the values of a point.
   ReferenceModel model_at(const FitPoint& at) const;
