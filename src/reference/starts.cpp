@@ -143,6 +143,7 @@ FitPoint start_point(const FitProblem& problem, std::vector<double> q) {
 
 Placement choose_variants(const FitProblem& problem, const FitPoint& at, double observer_hz) {
   Placement placed{at.starts, false, 0.0};
+  if (!problem.structure.has_load && observer_hz > 0.0) return placed;  // the only body is where it is read
   const auto square_from = [&](std::size_t r, const RecordingStart& start) {
     const Square square = recording_square(problem, at.q, r, start, observer_hz);
     placed.simulations += square.simulations;
