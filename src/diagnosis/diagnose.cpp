@@ -199,6 +199,12 @@ TorqueSearch climb(const Study& study, const FirstSearch& found) {
   return take_ladder(study, found.before, *found.budget);
 }
 
+/// Whether no further step could leave nothing: a drive that repeats itself badly has no floor that a model
+/// could come to, unless what the balance knows comes near it.
+bool is_beyond_steps(const Study& study, const ScoredModel& balanced) {
+  return study.repeats_badly() && balanced.median_innovation > kTelling.clearly_more;
+}
+
 /// Whether the torque balance says most of the input and knows nothing that helps, while what the observers
 /// favour stays off the floor: then they have only found numbers that hide what is missing.
 bool contradicted(const FirstSearch& found, const Additions& added) {
@@ -227,7 +233,8 @@ EffectSearch search_effects(Study& study) {
   count_first_step(study, found.candidates.size());
   TorqueSearch ladder = climb(study, found);
   study.work_before = *study.options.fit.work;
-  if (!ladder.added.empty() && at_floor(ladder.after)) return {std::move(found), {}, std::move(ladder)};
+  if (!ladder.added.empty() && (at_floor(ladder.after) || is_beyond_steps(study, ladder.after)))
+    return {std::move(found), {}, std::move(ladder)};
   Additions added = add_further(study, found);
   // The balance sees what is slow; what leaves the encoder nothing to show is all there is.
   if (!ladder.added.empty() && !leaves_nothing(added)) return {std::move(found), {}, std::move(ladder)};

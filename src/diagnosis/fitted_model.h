@@ -11,6 +11,12 @@
 
 namespace gapscope::internal::diagnosis {
 
+/// A number on which the torque alone and the free run disagree, beyond the interval of the former.
+struct Disagreement {
+  reference::ParameterId id;
+  double by_torque = kNaN, by_run = kNaN;
+};
+
 /// A model fitted to the training recordings, and the state that each of them begins with.
 struct FittedModel {
   ReferenceModel model;
@@ -21,6 +27,7 @@ struct FittedModel {
   bool balanced =
       false;  ///< its numbers are those of the torque balance, which no fit to the motion has moved
   std::optional<reference::StandardErrors> errors = {};  ///< once it is settled, see settle.h
+  std::vector<Disagreement> disagreements = {};  ///< of one that was fitted for its runs, see long_runs.h
   bool searched = false;  ///< from afar with its effects as they are: that has led nowhere else
 };
 

@@ -177,6 +177,7 @@ std::vector<reference::RecordingStart> settled_starts(std::span<const MotorTrace
                                                       const ReferenceModel& model, double observer_hz) {
   const reference::ModelFit fit(recordings, all_fixed(model), {}, observer_hz);
   const reference::FitPoint given = fit.given_point();
+  if (!model.structure.has_load) return given.starts;  // the observer knows where its only body is
   const reference::FitPoint placed = fit.with_loads_placed(given).value_or(given);
   const reference::RefinedFit better = fit.refine(placed, SearchEffort{}.quick);
   return better.usable() ? better.starts : placed.starts;
@@ -223,6 +224,28 @@ Positions whole_runs(const ReferenceModel& model, const HeldOut& held_out, doubl
       positions[r][i] = runner.measured();
     };
     if (!reference::roll_out(run.plant, run.starts[r], trace, reference::ObserverGains(), visit)) return {};
+  }
+  return positions;
+}
+
+Positions judged_runs(const ReferenceModel& model, const HeldOut& held_out, double observer_hz) {
+  const reference::ModelFit fit(held_out.traces, all_fixed(model), {}, observer_hz);
+  const reference::ModelRun run = fit.run_at({{}, settled_starts(held_out.traces, model, observer_hz)});
+  Positions positions(held_out.traces.size());
+  for (std::size_t r = 0; r < positions.size(); ++r) {
+    MotorTrace trace = run.under_own_input(held_out.traces[r], r);
+    const Scaled scaled(trace, held_out, r);
+    DriveStepper<double> runner = reference::stepper_for(run.plant, trace);
+    bool healthy = true;
+    const auto visit = [&](std::size_t i, const DriveStepper<double>& observer) {
+      if (i < held_out.scored_from[r] || !healthy) return;
+      if (i == held_out.scored_from[r]) runner = observer;
+      positions[r].push_back(runner.measured());
+      reference::play_step(runner, trace, i);
+      healthy = runner.healthy();
+    };
+    const reference::ObserverGains gains(observer_hz, trace);
+    if (!reference::roll_out(run.plant, run.starts[r], trace, gains, visit) || !healthy) return {};
   }
   return positions;
 }

@@ -77,6 +77,9 @@ using Positions = std::vector<std::vector<double>>;
 /// never restarted.
 Positions whole_runs(const ReferenceModel& model, const HeldOut& held_out, double observer_hz);
 
+/// The same of what is judged alone, from where the observer has brought the model by then.
+Positions judged_runs(const ReferenceModel& model, const HeldOut& held_out, double observer_hz);
+
 Windows windows_of(const std::vector<Playback>& playbacks, const HeldOut& held_out);
 
 /// The windows of the free runs for a drive that stands still: x1 about its mean [free_floor²].

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "reference/model_fit.h"
@@ -21,6 +22,16 @@ struct Measure {
   double score_per_parameter = 0.04;  ///< of an effect, in S
 };
 inline constexpr Measure kMeasure;
+
+/// Free runs by which the numbers of a recommended model are fitted, see long_runs.h. Of the linear axis of
+/// docs/torque_balance.md, fitted to one recording, any tiling in three to six lengths, the longest the
+/// whole, leaves 5.7 to 6.7 mm rms of the whole of the other one, overlapping runs to its end 8.4 to 8.8.
+struct LongRuns {
+  std::array<std::size_t, 3> parts = {1, 3, 12};  ///< of a recording, for each of which the runs begin anew
+  double fine = 0.1;  ///< of the travel: period of a line whose phase a run soon loses
+  int iterations = 12;
+};
+inline constexpr LongRuns kLongRuns;
 
 /// How far the search with the simulator goes: as far as the seeds 860001 to 860036 of study_diagnosis
 /// (known) and those of 880001 to 880140 that shorter searches had lost ask for. `study_rule effort` shows

@@ -110,6 +110,14 @@ std::vector<std::string> names_of(const std::vector<const EffectEntry*>& entries
 /// NaN: there is no error budget.
 double band_of(const FirstSearch& found) { return found.budget ? found.budget->band.hz : kNaN; }
 
+/// Up to which a torque was looked for: the band of the error budget, else what the observer passes that
+/// follows lines over the position, and no more than the samples show [Hz].
+double highest_looked_at(const Study& study, double band_hz) {
+  double highest = std::isnan(band_hz) ? kMeasure.ripple_hz : band_hz;
+  for (const MotorTrace& t : study.held_out.traces) highest = std::min(highest, 0.5 / t.dt);
+  return highest;
+}
+
 MismatchPlace place_left_by(const Study& study, const ReferenceModel& model, double band_hz) {
   const double km = model.parameters[place::kTorqueConstant].value;
   const auto played = play(model, study.held_out, study.observer_hz, true);
@@ -225,6 +233,7 @@ void tell_models(const Study& study, const FirstSearch& found, const ScoredModel
   d.traces = traces_of(study, before_played, after_played);
   tell_torque(study, km, d);
   if (found.budget) tell_budget(study, *found.budget, d);
+  d.looked_at_hz = {0.0, highest_looked_at(study, band)};
   tell_whole_runs(study, nominal.fitted.model, added, d);
   d.as_configured = as_configured(study);
   if (found.budget || study.repeats_badly()) forget_probabilities(d);

@@ -1,6 +1,7 @@
 #include "diagnosis/tell_intervals.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -167,6 +168,33 @@ std::vector<std::string> held_of(const ReferenceModel& sheet) {
   return held;
 }
 
+/// "motor_inertia (93.3 and 94.9 kg)"
+std::string words_of(const Disagreement& it, const ReferenceModel& model, Coordinates coordinates) {
+  const auto index = static_cast<std::size_t>(it.id.index);
+  if (it.id.effect < 0) {
+    const DriveParameterSpec& p = kDriveParameters[it.id.index];
+    return fmt::format("{} ({:.3g} and {:.3g} {})", p.key, it.by_run, it.by_torque,
+                       coordinates.shown_unit(p.unit));
+  }
+  const EffectEntry& entry = *model.effects[static_cast<std::size_t>(it.id.effect)].entry;
+  const std::string unit = coordinates.shown_unit(entry.parameters[index].unit);
+  return fmt::format("{}.{} ({:.3g} and {:.3g}{})", entry.name, entry.parameters[index].key, it.by_run,
+                     it.by_torque, unit == "-" || unit.empty() ? "" : " " + unit);
+}
+
+/// Numbers of which the free run and the torque alone have clearly different values: neither is sure of them.
+void warn_of_disagreements(const Study& study, const FittedModel& fitted, Diagnosis& d) {
+  std::vector<std::string> numbers;
+  for (const Disagreement& it : fitted.disagreements)
+    numbers.push_back(words_of(it, fitted.model, study.options.coordinates));
+  if (numbers.empty()) return;
+  d.warnings.push_back(
+      fmt::format("the free run and the {} alone disagree on {}: the model has the former values, and their "
+                  "intervals hold "
+                  "both.",
+                  study.options.coordinates.torque_word(), fmt::join(numbers, ", ")));
+}
+
 bool has_estimates(const ReferenceModel& model) {
   const auto estimated = [](const ParameterSetting& p) { return p.estimate; };
   return std::ranges::any_of(model.parameters, estimated) ||
@@ -203,6 +231,7 @@ void tell_intervals(const Study& study, const FittedModel& fitted, const Referen
       d.model_gap->ci95 = normal_interval(d.model_gap->value, error);
   if (d.mismatch.after < kRule.floor_ratio * d.mismatch.floor) d.doubts = fit.doubts;  // else more is missing
   for (const Doubt& doubt : d.doubts) d.warnings.push_back(fmt::format("{}: {}.", doubt.found, doubt.advice));
+  warn_of_disagreements(study, fitted, d);
   if (known) d.refitted = refitted_of(study, fitted, nominal, fit);
 }
 

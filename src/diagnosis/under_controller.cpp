@@ -75,6 +75,59 @@ std::optional<ClosedLoop> judged_under_controller(const HeldOut& held, const Pos
   return judged;
 }
 
+namespace {
+
+/// Of x̂ about a recording, and of the recording about its mean.
+HeldOutRun measured(const MotorTrace& trace, const std::vector<double>& x) {
+  HeldOutRun run{trace.file, trace.time(0), trace.time(trace.size() - 1)};
+  if (x.empty()) return run;
+  const double centre = mean(trace.x1), count = static_cast<double>(trace.size());
+  double square = 0.0, size = 0.0, motion = 0.0;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    square += std::pow(trace.x1[i] - x[i], 2), size += std::abs(trace.x1[i] - x[i]);
+    motion += std::pow(trace.x1[i] - centre, 2);
+  }
+  run.rmse = std::sqrt(square / count), run.mae = size / count;
+  run.fit = 100.0 * (1.0 - std::sqrt(square / motion));
+  return run;
+}
+
+/// The same study, of which what is held out begins where it is judged.
+Study of_judged_parts(const Study& study) {
+  Study judged = study;
+  HeldOut& held = judged.held_out;
+  for (std::size_t r = 0; r < held.traces.size(); ++r) {
+    const std::size_t from = std::exchange(held.scored_from[r], 0);
+    held.traces[r] = part(held.traces[r], from, held.traces[r].size() - from);
+  }
+  held.input_factors.clear();  // of whole recordings, and no controller's
+  return judged;
+}
+
+}  // namespace
+
+std::vector<HeldOutRun> held_out_runs(const Study& study, const ReferenceModel& nominal,
+                                      const ReferenceModel& fitted) {
+  const Study judged = of_judged_parts(study);
+  const auto runs = [&](const ReferenceModel& model, bool& closed) {
+    Positions positions = runs_under_controller(judged, model);
+    closed = !positions.empty();
+    return closed ? positions : judged_runs(model, study.held_out, study.observer_hz);
+  };
+  bool closed = false;
+  const Positions before = runs(nominal, closed), after = runs(fitted, closed);
+  std::vector<HeldOutRun> told;
+  for (std::size_t r = 0; r < judged.held_out.traces.size(); ++r) {
+    const MotorTrace& trace = judged.held_out.traces[r];
+    const auto of = [&](const Positions& all) {
+      return measured(trace, r < all.size() ? all[r] : std::vector<double>());
+    };
+    told.push_back(of(after));
+    told.back().closed = closed, told.back().nominal_fit = of(before).fit;
+  }
+  return told;
+}
+
 void tell_whole_runs(const Study& study, const ReferenceModel& nominal, bool added, Diagnosis& d) {
   const auto both = [&](const auto& runs) {
     Positions before = runs(nominal);
@@ -85,6 +138,7 @@ void tell_whole_runs(const Study& study, const ReferenceModel& nominal, bool add
   const auto held = both([&](const ReferenceModel& m) { return runs_under_controller(study, m); });
   d.whole_run = whole_run(study.held_out, free.first, free.second);
   d.closed_loop = judged_under_controller(study.held_out, held.first, held.second);
+  d.held_out_runs = held_out_runs(study, nominal, d.fitted);
   const auto& [before, after] = held.first.empty() ? free : held;
   for (std::size_t r = 0; r < d.traces.size(); ++r) {
     if (r < before.size()) d.traces[r].simulated_before = before[r];

@@ -15,6 +15,10 @@ Positions runs_under_controller(const Study& study, const ReferenceModel& model)
 std::optional<ClosedLoop> judged_under_controller(const HeldOut& held_out, const Positions& before,
                                                   const Positions& after);
 
+/// Each recording that is held out beside the fitted model, and how well the nominal one fits it.
+std::vector<HeldOutRun> held_out_runs(const Study& study, const ReferenceModel& nominal,
+                                      const ReferenceModel& fitted);
+
 /// Gives a diagnosis what the model does from the first sample of each recording on, freely, and under the
 /// controller where there is one, and its traces the latter of both.
 /// @param added  whether the fitted model has more than the nominal one

@@ -208,6 +208,18 @@ void fields(Archive& archive, WholeRun& w) {
 }
 
 template <class Archive>
+void fields(Archive& archive, HeldOutRun& r) {
+  archive("file", r.file);
+  archive("from_s", r.from);
+  archive("to_s", r.to);
+  archive.choice("loop", r.closed, Words<bool>{{true, "closed"}, {false, "open"}});
+  archive("rmse_rad", r.rmse);
+  archive("mae_rad", r.mae);
+  archive("fit_percent", r.fit);
+  archive("nominal_fit_percent", r.nominal_fit);
+}
+
+template <class Archive>
 void fields(Archive& archive, AsConfigured& c) {
   archive("error_rad", c.error);
 }
@@ -275,6 +287,8 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive.seldom("model_gap", g.model_gap);
   archive("undetermined_rad", g.undetermined);
   archive.seldom("whole_run", g.whole_run);
+  archive.added_list("held_out_runs", g.held_out_runs);
+  archive.addition("looked_at_hz", g.looked_at_hz);
   archive.seldom("as_configured", g.as_configured);
   archive.single("error_budget", g.budget);
   archive.list("ranking", g.ranking);

@@ -234,6 +234,11 @@ void JsonReader::addition(const char* key, Remark& value) {
   if (json_.contains(key)) (*this)(key, value);
 }
 
+void JsonReader::addition(const char* key, Interval& value) {
+  value = {};
+  if (json_.contains(key)) (*this)(key, value);
+}
+
 void JsonReader::configuration(std::string& resolved) {
   resolved.clear();
   if (const Json made = json_.value(kConfiguration, Json()); !made.is_null()) {

@@ -77,6 +77,7 @@ class JsonWriter {
   void addition(const char* key, std::string& value) { (*this)(key, value); }
   void addition(const char* key, double& value) { (*this)(key, value); }
   void addition(const char* key, Remark& value) { (*this)(key, value); }
+  void addition(const char* key, Interval& value) { (*this)(key, value); }
 
   template <class Struct>
   void added_list(const char* key, std::vector<Struct>& values) {
@@ -178,10 +179,11 @@ class JsonReader {
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
   void addition(const char* key,
-                std::string& value);              ///< empty in files that were written before it was stored
-  void addition(const char* key, double& value);  ///< NaN there
-  void addition(const char* key, Remark& value);  ///< empty there
-  void configuration(std::string& resolved);      ///< empty in files that were written before it was stored
+                std::string& value);                ///< empty in files that were written before it was stored
+  void addition(const char* key, double& value);    ///< NaN there
+  void addition(const char* key, Remark& value);    ///< empty there
+  void addition(const char* key, Interval& value);  ///< NaN there
+  void configuration(std::string& resolved);        ///< empty in files that were written before it was stored
   void seldom(const char* key, std::vector<std::string>& values) {
     values.clear();
     if (json_.contains(key)) (*this)(key, values);

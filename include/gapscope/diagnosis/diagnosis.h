@@ -203,7 +203,9 @@ struct Diagnosis {
   std::optional<ModelGap> model_gap;  ///< nothing: not told
   /// What the fitted recordings leave open of the held-out motion: standard deviation of the prediction [rad]
   double undetermined = kNaN;
-  std::optional<WholeRun> whole_run;          ///< nothing: not told
+  std::optional<WholeRun> whole_run;      ///< nothing: not told
+  std::vector<HeldOutRun> held_out_runs;  ///< each held-out recording
+  Interval looked_at_hz;                  ///< in which a torque was looked for: none is denied outside [Hz]
   std::optional<AsConfigured> as_configured;  ///< nothing: the configuration leaves numbers to the fit
   ErrorBudget budget;
   std::vector<MismatchMeasure> measures;

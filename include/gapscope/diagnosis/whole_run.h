@@ -27,6 +27,17 @@ struct WholeRun {
   double travel = kNaN;                ///< of the recording in which the former is [rad]
 };
 
+/// The fitted model beside a held-out recording, simulated from its first row to its last without a
+/// correction: what a user of the model sees. Of a recording whose beginning was fitted, the part held out.
+struct HeldOutRun {
+  std::string file;
+  double from = kNaN, to = kNaN;   ///< of the first and last row [s]
+  bool closed = false;             ///< under its controller: goal in, position out
+  double rmse = kNaN, mae = kNaN;  ///< of the position [rad]; NaN: the motion diverges, as below
+  double fit = kNaN;               ///< 100 (1 − |x1 − x̂1|/|x1 − mean|) [%]
+  double nominal_fit = kNaN;       ///< the same of the model without what was added [%]
+};
+
 /// The model with the numbers that the configuration gives it, before any fit.
 struct AsConfigured {
   double error = kNaN;  ///< as MismatchSize::before [rad]; NaN: the motion diverges
