@@ -20,12 +20,23 @@ bool has_one_balance(const Study& study, const ReferenceModel& model) {
   return model.structure.load == LoadKind::kLocked && (!has_play(model) || of_the_same);
 }
 
-/// u in torque and the time since the recording began, as the simulator counts it, from a sample on.
-view::StampedTrace in_torque(const MotorTrace& trace, std::size_t from, double torque_constant) {
+/// Position at which the load hangs, by the model; 0 where nothing hangs.
+double hangs_at(const ReferenceModel& model) {
+  for (const ModelEffect& e : model.effects)
+    if (e.entry == find_effect("load_unbalance")) return -e.parameters[1].value;
+  return 0.0;
+}
+
+/// u in torque and the time since the recording began, as the simulator counts it, from a sample on. What its
+/// load has beyond that of the model takes its part of it.
+/// @param hangs_at  the position at which that hangs [rad]
+view::StampedTrace in_torque(const MotorTrace& trace, std::size_t from, double torque_constant,
+                             double hangs_at) {
   view::StampedTrace t{trace.file, {}, {}, {}, trace.quantum, true};
+  t.added_inertia = trace.load.inertia;
   for (std::size_t i = from; i < trace.size(); ++i) {
     t.t.push_back(trace.elapsed(i));
-    t.u.push_back(torque_constant * trace.u[i]);
+    t.u.push_back(torque_constant * trace.u[i] - trace.load.gravity * std::sin(trace.x1[i] - hangs_at));
     t.x.push_back(trace.x1[i]);
   }
   return t;
@@ -195,9 +206,10 @@ bool acts_as_delay(const EffectEntry& entry) {
 view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nominal) {
   const double km = nominal.parameters[place::kTorqueConstant].value;
   view::SplitRecordings data;
-  for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km));
+  const double down = hangs_at(nominal);
+  for (const MotorTrace& t : study.train) data.fit.push_back(in_torque(t, 0, km, down));
   for (std::size_t r = 0; r < study.held_out.traces.size(); ++r)
-    data.judge.push_back(in_torque(study.held_out.traces[r], study.held_out.scored_from[r], km));
+    data.judge.push_back(in_torque(study.held_out.traces[r], study.held_out.scored_from[r], km, down));
   data.turns = study.turns;
   data.held_output = nominal.structure.has_load;
   data.new_phase = study.held_out.scored_from.front() == 0;  // other recordings, not the rest of these

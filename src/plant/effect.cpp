@@ -154,9 +154,27 @@ void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const 
   plant.effects.push_back(effect);
 }
 
+template <class T>
+void add_load(PlantModel<T>& plant, double inertia, double gravity) {
+  if (plant.structure.has_load)
+    plant.drive.mass_ratio += inertia / plant.drive.motor_inertia;
+  else
+    plant.drive.motor_inertia += inertia;
+  const EffectHooks<T>* hangs = &hooks_of<T>(internal::plant::effect_load_unbalance);
+  for (ActiveEffect<T>& effect : plant.effects)
+    if (effect.hooks == hangs) {
+      effect.parameters[0] += gravity;
+      return;
+    }
+}
+
 template void add_effect(PlantModel<double>&, const EffectEntry&, std::span<const double>);
 template void add_effect(PlantModel<Jet<4>>&, const EffectEntry&, std::span<const Jet<4>>);
 template void add_effect(PlantModel<Jet<8>>&, const EffectEntry&, std::span<const Jet<8>>);
 template void add_effect(PlantModel<Jet<12>>&, const EffectEntry&, std::span<const Jet<12>>);
+template void add_load(PlantModel<double>&, double, double);
+template void add_load(PlantModel<Jet<4>>&, double, double);
+template void add_load(PlantModel<Jet<8>>&, double, double);
+template void add_load(PlantModel<Jet<12>>&, double, double);
 
 }  // namespace gapscope

@@ -72,6 +72,7 @@ Recording part(const Recording& recording, std::size_t first, std::size_t count)
   r.sent = part_of(recording.sent, first, count);
   r.delay = recording.delay;
   r.assumed = recording.assumed;
+  r.load = recording.load;
   return r;
 }
 

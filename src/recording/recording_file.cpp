@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
@@ -88,11 +89,55 @@ double sampling_interval(const RecordedRows& table) {
 namespace internal::recording {
 namespace {
 
+constexpr double kRests = 0.3;         ///< so long at the end of a file, at least [s]
+constexpr double kRestsWithin = 0.01;  ///< of the way that the drive has gone
+constexpr double kFarOff = 0.25;       ///< of that way, off the goal: a controller at work would move it
+constexpr double kFarther = 3.0;       ///< over the error of any other rest
+
+double error_at(const CommandRows& rows, std::size_t i) {
+  return std::abs(rows.target[i] - rows.position[i]);
+}
+
+/// Largest error at which the drive has rested before a row.
+double held_error(const CommandRows& rows, std::size_t before, double within) {
+  double most = 0.0;
+  for (std::size_t i = 0, begin = 0; i < before; ++i) {
+    while (std::abs(rows.position[begin] - rows.position[i]) > within) ++begin;
+    if (rows.t[i] - rows.t[begin] >= kRests) most = std::max(most, error_at(rows, i));
+  }
+  return most;
+}
+
+/// When a drive was let go that comes to rest far off its goal, farther than it ever held: from where its
+/// error was least before that, which then grew [s]. Infinite: it is held to the end.
+double let_go_at(const CommandRows& rows) {
+  const auto [low, high] = std::minmax_element(rows.position.begin(), rows.position.end());
+  const double way = *high - *low, within = kRestsWithin * way;
+  const double error = error_at(rows, rows.t.size() - 1);
+  std::size_t i = rows.t.size() - 1;
+  while (i > 0 && std::abs(rows.position[i - 1] - rows.position.back()) <= within) --i;
+  if (!(rows.t.back() - rows.t[i] >= kRests) || !(error > kFarOff * way)) return kInfinity;
+  while (i > 0 && error_at(rows, i - 1) > 0.5 * error) --i;
+  while (i > 0 && error_at(rows, i - 1) <= error_at(rows, i)) --i;
+  return error > kFarther * held_error(rows, i, within) ? rows.t[i] : kInfinity;
+}
+
 CommandRows command_of(const RecordedRows& table, const ReadOptions& options) {
   CommandRows rows = {table.t, table.target, table.x1, table.supply, options.gain_times};
   const bool bridges = options.lost_rows == LostRows::kBridged && !options.resample_rate;
   if (bridges) rows.bridged = losses_of(table.t);
+  if (options.off)
+    std::tie(rows.off_from, rows.off_to) = *options.off;
+  else
+    rows.off_from = let_go_at(rows);
   return rows;
+}
+
+/// A supply of one voltage, where no column has it.
+void supply_by(double voltage, const ReadOptions& options, RecordedRows& table) {
+  if (options.columns.reads_input())
+    for (double& u : table.u) u *= voltage;
+  table.supply.assign(table.size(), voltage);
 }
 
 /// The input is what the controller made of the target.
@@ -107,6 +152,7 @@ RecordedRows read_window(const std::string& path, const ReadOptions& options, Ea
   RecordedRows table = read_rows(path, options.columns, earlier);
   require_samples(table, table.size(), "");
   mend_rows(options, table);
+  if (options.voltage) supply_by(*options.voltage, options, table);
   if (options.controller && !options.columns.reads_input()) command(options, table);
   if (options.window) cut_to_window(table, *options.window);
   return table;

@@ -52,16 +52,19 @@ inline std::span<const double> stepped_input(const MotorTrace& recording) {
   return recording.sent.empty() ? recording.u : recording.sent;
 }
 
-/// A stepper for the intervals of a recording and, where its controller's output acts later, for that delay.
+/// A stepper for the intervals of a recording, with the load that it had, and, where its controller's output
+/// acts later, for that delay.
 template <class T>
 DriveStepper<T> stepper_for(const PlantModel<T>& model, const MotorTrace& recording) {
   double shortest = recording.even() ? 0.0 : recording.dt;
   for (std::size_t i = 1; i < recording.stamps.size(); ++i)
     shortest = std::min(shortest, recording.step(i - 1));
-  if (recording.sent.empty()) return DriveStepper<T>(model, recording.dt, shortest);
-  PlantModel<T> later = model;
-  delay_input(later, T(recording.delay));
-  return DriveStepper<T>(later, recording.dt, shortest);
+  if (recording.sent.empty() && recording.load.is_none())
+    return DriveStepper<T>(model, recording.dt, shortest);
+  PlantModel<T> then = model;
+  if (!recording.load.is_none()) add_load(then, recording.load.inertia, recording.load.gravity);
+  if (!recording.sent.empty()) delay_input(then, T(recording.delay));
+  return DriveStepper<T>(then, recording.dt, shortest);
 }
 
 /// One interval of the recording, from sample i on, with the input u.

@@ -46,7 +46,8 @@ double speed_at(const MotorTrace& r, std::size_t i, std::size_t half) {
 }
 
 /// What the motor brings against them, both bodies moving as the recorded one [N m].
-std::vector<double> known_torque(const MotorTrace& r, const PlantModel<double>& plant) {
+std::vector<double> known_torque(const MotorTrace& r, PlantModel<double> plant) {
+  add_load(plant, 0.0, r.load.gravity);
   std::vector<double> torque(r.size(), 0.0);
   const std::size_t half = signals::speed_window(r) / 2;
   for (std::size_t i = 0; i < r.size(); ++i) {

@@ -78,6 +78,15 @@ void read_states(BandRecord& record, std::span<const double> cells, double sigma
   }
 }
 
+/// What moves more of a load than the others have takes its part of the input.
+void take_off(double inertia, BandRecord& record) {
+  if (inertia == 0.0) return;
+  std::vector<double> accelerated(record.row_time.size());
+  record.rest.apply(record.a.data(), accelerated.data());
+  for (std::size_t r = 0; r < accelerated.size(); ++r)
+    record.u(static_cast<Eigen::Index>(r)) -= inertia * accelerated[r];
+}
+
 }  // namespace
 
 double StampedTrace::step() const {
@@ -112,6 +121,7 @@ BandRecord in_band(const StampedTrace& trace, double hz, const TorqueViewOptions
   record.u.resize(static_cast<Eigen::Index>(record.row_time.size()));
   const std::vector<double> u = trace.held_command ? hold_corrected(record.t, trace.u) : trace.u;
   record.whole.apply(u.data(), record.u.data());
+  take_off(trace.added_inertia, record);
   return record;
 }
 

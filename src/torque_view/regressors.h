@@ -14,11 +14,12 @@ namespace gapscope::internal::torque_view {
 /// A recording with its stamps as they are.
 struct StampedTrace {
   std::string file;
-  std::vector<double> t;      ///< rising [s]
-  std::vector<double> u;      ///< [unit of u]
-  std::vector<double> x;      ///< motor position [rad or m]
-  double quantum = 0.0;       ///< of the encoder; 0: unknown
-  bool held_command = false;  ///< u is a command that is held to the next sample, no measured current
+  std::vector<double> t;       ///< rising [s]
+  std::vector<double> u;       ///< [unit of u]
+  std::vector<double> x;       ///< motor position [rad or m]
+  double quantum = 0.0;        ///< of the encoder; 0: unknown
+  bool held_command = false;   ///< u is a command that is held to the next sample, no measured current
+  double added_inertia = 0.0;  ///< of this recording's load, beyond the others', which takes its part of u
 
   double step() const;  ///< median of the time steps [s]
 };

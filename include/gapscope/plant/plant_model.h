@@ -41,4 +41,9 @@ struct PlantModel {
 template <class T>
 void add_effect(PlantModel<T>& plant, const EffectEntry& entry, std::span<const T> parameters);
 
+/// Puts more of the same on the arm: inertia [kg m²] on the load, or on the one body, and weight [N m] on its
+/// load_unbalance, where it has one.
+template <class T>
+void add_load(PlantModel<T>& plant, double inertia, double gravity);
+
 }  // namespace gapscope

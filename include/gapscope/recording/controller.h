@@ -24,10 +24,13 @@ enum class ControllerKind {
 ///   velocity   y = speed_gain v + speed_integral ∫v dt,   v = target − ẋ
 ///   cascade    the same with v = gain e − ẋ
 /// y limited to ±saturation, where the integral rests. It acts `delay` later and is held until the next one
-/// does. T is double, or a Jet where derivatives are wanted.
+/// does. Where the gain falls with the error, e / √(1 + (e/falls_at)²) stands for e. The target is the host's
+/// goal, or where the firmware's own profile and filter have come to on the way to it (ShapedGoal). T is
+/// double, or a Jet where derivatives are wanted.
 template <class T>
 struct ControllerOf {
   ControllerKind kind = ControllerKind::kPosition;
+  float goal_delay = 0.0F;        ///< of the goal alone, from the host to the controller [s]
   T gain{kNaN};                   ///< [input unit/rad]; in a cascade [1/s]
   T derivative{};                 ///< [input unit s/rad]
   T integral{};                   ///< [input unit/(rad s)]
@@ -37,6 +40,10 @@ struct ControllerOf {
   T delay{};                      ///< from the reading of the position to the change of the input [s]
   double saturation = kInfinity;  ///< of y [input unit]
   double dead_band = 0.0;         ///< [rad]
+  double falls_at = kInfinity;    ///< error at which the gain is 1/√2 of that of small ones [rad]
+  double profile_speed = kInfinity, profile_acceleration = kInfinity;  ///< [rad/s], [rad/s²]
+  double goal_filter = 0.0;   ///< time constant of a first-order filter of the goal [s]
+  double off_damping = kNaN;  ///< of the motor's side while it is switched off; NaN: as ever [N m s/rad]
 };
 using DriveController = ControllerOf<double>;
 
@@ -73,6 +80,42 @@ inline int leading_number(ControllerKind kind) {
   return kind == ControllerKind::kPosition ? controller_place::kGain : controller_place::kSpeedGain;
 }
 
+/// The goal as the firmware follows it: filtered, then under limits of speed and acceleration.
+class ShapedGoal {
+ public:
+  /// @param span  since the last call [s]; 0: the first one, at which it stands at the goal
+  /// @returns where it is [rad]
+  template <class T>
+  double follow(const ControllerOf<T>& c, double target, double span) {
+    if (span <= 0.0) return position_ = filtered_ = target;
+    filtered_ =
+        c.goal_filter > 0.0 ? target + (filtered_ - target) * std::exp(-span / c.goal_filter) : target;
+    if (!(c.profile_speed < kInfinity) && !(c.profile_acceleration < kInfinity)) return position_ = filtered_;
+    const double pieces = std::ceil(span / kLongestPiece);
+    for (double i = 0.0; i < pieces; ++i) move(c.profile_speed, c.profile_acceleration, span / pieces);
+    return position_;
+  }
+
+ private:
+  static constexpr double kLongestPiece = 1e-3;  ///< of its motion, along which its speed is one [s]
+
+  void move(double speed, double acceleration, double h) {
+    const double way = filtered_ - position_, far = std::abs(way);
+    double wanted = std::min(speed, far / h);
+    if (acceleration < kInfinity) {
+      wanted = std::min(wanted, std::sqrt(2.0 * acceleration * far));
+      const double most = acceleration * h;
+      speed_ += std::clamp(std::copysign(wanted, way) - speed_, -most, most);
+      if (far <= most * h && std::abs(speed_) <= 2.0 * most) speed_ = way / h;
+    } else {
+      speed_ = std::copysign(wanted, way);
+    }
+    position_ += speed_ * h;
+  }
+
+  double position_ = 0.0, speed_ = 0.0, filtered_ = 0.0;
+};
+
 /// A controller from one update to the next.
 template <class T>
 class ControllerLaw {
@@ -83,7 +126,7 @@ class ControllerLaw {
   /// @returns y
   T update(double time, double target, const T& position) {
     const double span = started_ ? time - time_ : 0.0;
-    const T e = error(target, position, span);
+    const T e = error(goal_.follow(c_, target, span), position, span);
     const T sum = sum_ + e * span;
     T y = c_.kind == ControllerKind::kPosition ? c_.gain * e + c_.integral * sum
                                                : c_.speed_gain * e + c_.speed_integral * sum;
@@ -102,6 +145,10 @@ class ControllerLaw {
     if (c_.kind == ControllerKind::kVelocity) return target - speed;
     T e = target - position;
     if (e <= c_.dead_band && e >= -c_.dead_band) e = T(0.0);
+    if (c_.falls_at < kInfinity) {
+      using std::sqrt;
+      e = e / sqrt(1.0 + (e / c_.falls_at) * (e / c_.falls_at));
+    }
     return c_.kind == ControllerKind::kPosition ? e : T(c_.gain * e - speed);
   }
 
@@ -111,6 +158,7 @@ class ControllerLaw {
   }
 
   const ControllerOf<T>& c_;
+  ShapedGoal goal_;
   T error_{}, position_{}, sum_{};
   double time_ = 0.0;
   bool started_ = false;
@@ -125,6 +173,9 @@ struct CommandRows {
   double gain_times = 1.0;       ///< the controller's leading number then, over the declared one [-]
   std::vector<Loss> bridged =
       {};  ///< lost rows over which the input is drawn to the next one; others hold it
+  double off_from = kInfinity, off_to = kInfinity;  ///< times between which it was switched off [s]
+
+  bool is_off(double time) const { return time >= off_from && time < off_to; }
 };
 
 /// The controller that was at work while rows were recorded.
@@ -170,13 +221,16 @@ class RunningController {
     while (row_ + 1 < t.size() && t[row_ + 1] - kSameTime * (t[row_ + 1] - t[row_]) <= time) ++row_;
     double x = rows_.position[row_];
     if (row_ + 1 < t.size()) x += (time - t[row_]) / (t[row_ + 1] - t[row_]) * (rows_.position[row_ + 1] - x);
-    return law_.update(time, rows_.target[row_], T(x));
+    while (goal_ + 1 < t.size() &&
+           t[goal_ + 1] - kSameTime * (t[goal_ + 1] - t[goal_]) <= time - c_.goal_delay)
+      ++goal_;
+    return law_.update(time, rows_.target[goal_], T(x));
   }
 
   ControllerOf<T> c_;
   const CommandRows& rows_;
   ControllerLaw<T> law_;
-  std::size_t row_ = 0, updates_ = 0;
+  std::size_t row_ = 0, goal_ = 0, updates_ = 0;
   T output_{};
 };
 
@@ -203,6 +257,10 @@ std::vector<T> commanded_input(const ControllerOf<T>& controller, const CommandR
       running.update();
     }
     if (i < first) continue;
+    if (rows.is_off(from)) {
+      u[i - first] = T(0.0);
+      continue;
+    }
     const T held = at == from ? running.output() : T((impulse + (to - at) * running.output()) / (to - from));
     u[i - first] = held * rows.supply[i];
   }

@@ -26,6 +26,14 @@ enum class Mode : signed char {
 /// recording.
 const char* to_string(Mode mode);
 
+/// What the load of one recording has beyond that of the model, as where another mass hung on the arm.
+struct AddedLoad {
+  double inertia = 0.0;  ///< [kg m²]; of a lighter load negative
+  double gravity = 0.0;  ///< torque of its weight where the arm is level [N m]
+
+  bool is_none() const { return inertia == 0.0 && gravity == 0.0; }
+};
+
 /// The view that estimators take: one encoder and the input, nothing of the other body.
 struct MotorTrace {
   std::string file;                  ///< name of the recording, for events and messages
@@ -41,6 +49,7 @@ struct MotorTrace {
   std::span<const double> sent{};  ///< what a controller sends at its own sample, to act `delay` later: where
                                    ///< there is any, u is its mean over each interval
   double delay = 0.0;              ///< [s]
+  AddedLoad load{};                ///< beyond that of the model
 
   std::size_t size() const { return x1.size(); }
   bool even() const { return stamps.empty(); }
@@ -78,6 +87,7 @@ struct Recording {
   std::vector<double> sent = {};                    ///< see MotorTrace; empty: u is all there is
   double delay = 0.0;                               ///< of what was sent [s]
   std::vector<Remark> assumed = {};  ///< how its file was read, where that does not go without saying
+  AddedLoad load = {};               ///< beyond that of the model
 
   /// What estimators read [rad].
   const std::vector<double>& position() const { return encoder == EncoderSide::kLoad ? x2 : x1; }
@@ -86,7 +96,7 @@ struct Recording {
   double time(std::size_t i) const { return even() ? start + dt * static_cast<double>(i) : stamps[i]; }
   double duration() const { return dt * static_cast<double>(size()); }
   MotorTrace motor_trace() const {
-    return {file, start, dt, u, position(), quantum, stamps, command.get(), command_first, sent, delay};
+    return {file, start, dt, u, position(), quantum, stamps, command.get(), command_first, sent, delay, load};
   }
 };
 

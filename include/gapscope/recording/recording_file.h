@@ -78,8 +78,10 @@ struct ReadOptions {
   UnevenRows uneven = UnevenRows::kRefused;         ///< where they are not resampled
   LostRows lost_rows = LostRows::kHeld;             ///< of rows with their own times
   EncoderSide encoder = EncoderSide::kMotor;        ///< whose position the column `position` is
-  std::optional<DriveController> controller;  ///< makes the input of the target, where that was recorded
-  double gain_times = 1.0;                    ///< its leading number in this file, over that one [-]
+  std::optional<DriveController> controller;     ///< makes the input of the target, where that was recorded
+  double gain_times = 1.0;                       ///< its leading number in this file, over that one [-]
+  std::optional<std::pair<double, double>> off;  ///< times between which the drive was switched off [s]
+  std::optional<double> voltage;  ///< of the supply in this file, which the duty is a part of [V]
   Unwrap unwrap = Unwrap::kAuto;
   int input_rows =
       0;  ///< by which the recorded input is moved: with -1 that of the next row acts from this one
@@ -107,6 +109,11 @@ constexpr std::size_t kFewestSamples = 50;
 ///   field that is no finite number, a row with too few fields, a variable that is no real vector, time that
 ///   does not increase, non-uniform time (unless it is taken), too few samples, an empty window.
 Recording read_recording(const std::string& path, const ReadOptions& options = {});
+
+/// The number that a column or a variable holds all through a file, as a bench stores the mass on its arm.
+/// @param columns  of which the time and the rate are taken
+/// @throws ConfigError where there is none of that name, or where it changes
+double number_of_file(const std::string& path, const std::string& name, const RecordingColumns& columns);
 
 /// Of a recording that has input and target both: what its controller, as declared, makes of the target
 /// beside the input that was recorded. Nothing where there is no controller, or no input.
