@@ -38,6 +38,27 @@ void at_least(double mass, ParameterSetting& inertia) {
 
 }  // namespace
 
+ParameterSetting AnchorConfig::about_zero() {
+  ParameterSetting angle = ParameterSetting::sought(0.0);
+  angle.low = -0.5, angle.high = 0.5;
+  return angle;
+}
+
+void AnchorConfig::take(const AddedLoad& load) {
+  if (load.is_none()) return;
+  const double weight = torque() + load.gravity, of_mass = mass_inertia() + load.inertia;  // m g l, m l²
+  arm = gravity * of_mass / weight;
+  mass = weight / (gravity * arm);
+}
+
+std::optional<AnchorConfig> AnchorConfig::what_hangs() const {
+  if (std::isnan(mass)) return {};
+  AnchorConfig hanging = *this;
+  hanging.inertia = hanging.friction = kNaN;
+  hanging.hangs_at = ParameterSetting::known(std::isnan(hangs_at.value) ? 0.0 : hangs_at.value);
+  return hanging;
+}
+
 double AnchorConfig::torque() const { return mass * gravity * arm; }
 double AnchorConfig::mass_inertia() const { return mass * arm * arm; }
 
@@ -49,6 +70,10 @@ void AnchorConfig::fix(ReferenceModel& model) const {
   if (std::isfinite(friction))
     model.effects.push_back(effect_of("motor_coulomb_friction", {ParameterSetting::known(friction)}));
   if (std::isnan(mass)) return;
+  const bool hangs = std::any_of(model.effects.begin(), model.effects.end(), [](const ModelEffect& e) {
+    return e.entry == find_effect("load_unbalance");
+  });
+  if (hangs) return;  // of a model that was fitted with it
   model.effects.push_back(gravity_of(*this));
   if (!model.structure.has_load) at_least(mass_inertia(), own);
 }
@@ -73,13 +98,6 @@ constexpr Range kMass = {1e-9, 1e9, "kg"}, kArm = {1e-9, 1e6, "m"}, kHangs = {-7
                 kGravity = {1e-3, 1e3, "m/s^2"}, kInertia = {1e-12, 1e9, "kg m^2"},
                 kFriction = {1e-12, 1e9, "N m"};
 
-/// Of an angle that is not written: it is looked for about 0.
-ParameterSetting about_zero() {
-  ParameterSetting angle = ParameterSetting::sought(0.0);
-  angle.low = -0.5, angle.high = 0.5;
-  return angle;
-}
-
 /// @throws ConfigError where the model already has the effect that stands for a part of the anchor
 void require_without(const Configuration& c, const Value& place, const char* effect) {
   for (const EffectConfig& e : c.model.effects)
@@ -101,7 +119,7 @@ void read_mass(const Section& section, const Value& mass, Configuration& c, Anch
   if (turns.motor != 1.0 || turns.load != 1.0)
     mass.fail(
         "is on the axis of the positions, expected no gear_ratio beside it (scale the positions instead)");
-  require_without(c, mass, "load_unbalance");
+  if (c.recording) require_without(c, mass, "load_unbalance");
 }
 
 }  // namespace
@@ -111,7 +129,7 @@ void read_anchor(const Section& root, Configuration& c) {
   if (!given) return;
   const Section section(*given, {"mass", "arm", "hangs_at", "gravity", "inertia", "friction"});
   AnchorConfig anchor;
-  anchor.hangs_at = about_zero();
+  anchor.hangs_at = AnchorConfig::about_zero();
   if (const auto angle = section.find("hangs_at")) anchor.hangs_at = read_setting(*angle, kHangs);
   const auto mass = section.find("mass"), inertia = section.find("inertia"),
              friction = section.find("friction");

@@ -12,6 +12,7 @@
 #include "config/data_reader.h"
 #include "config/detector_reader.h"
 #include "config/field_reader.h"
+#include "config/file_facts.h"
 #include "config/going_on.h"
 #include "config/model_reader.h"
 #include "config/setting.h"
@@ -153,6 +154,7 @@ Configuration read_configuration(const Value& document) {
   read_data(root, model, c);
   read_controller(root, c);
   read_anchor(root, c);
+  settle_loads(c);
   settle_periods(c.model.effects, c.turns(), c.file);
   if (c.simulation) settle_periods(c.simulation->plant.effects, c.turns(), c.file);
   place_encoder(c);
@@ -193,7 +195,7 @@ InputFacts Configuration::input_facts() const {
       model.given && model.guessed[static_cast<std::size_t>(drive_parameter_index("torque_constant"))];
   if (!recording) return input;
   const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
-  const bool of_a_supply = !recording->reading.columns.voltage.empty();  // a duty times its volts
+  const bool of_a_supply = recording->is_supplied();  // a duty times its volts
   const bool of_a_gain = !recording->reading.columns.reads_input() && internal::config::gain_is_torque(*this);
   input.unit = of_a_gain     ? coordinates.torque_unit()
                : of_a_supply ? "V"

@@ -6,6 +6,7 @@
 #include "config/anchor_reader.h"
 #include "config/controller_reader.h"
 #include "config/data_reader.h"
+#include "config/file_facts.h"
 #include "config/model_reader.h"
 #include "config/parameter_setting.h"
 #include "config/schema_parts.h"
@@ -96,18 +97,6 @@ Json model_schema() {
   return model.schema("the drive that is fitted, and that a simulation starts from");
 }
 
-Json files_or_file(const std::string& doc) {
-  MapSchema named;
-  named.add("name", text_schema("of the file"));
-  named.add("gain_times",
-            number_schema(kGainTimes, "the controller's gain in this recording, over that of controller:"));
-  named.required = {"name"};
-  const Json file = one_of({text_schema(""), named.schema("a recording made with another gain")}, "");
-  Json list = list_schema(file, "each another file");
-  list["minItems"] = 1, list["uniqueItems"] = true;
-  return one_of({text_schema(""), named.schema("a recording made with another gain"), list}, doc);
-}
-
 constexpr const char* kTemperature =
     "°[CF]|℃|℉|deg[CF]($|[^A-Za-z])|"
     "(^|[^A-Za-z])([Tt]emps?|TEMPS?|[Tt]emperatur[a-z]*|[Cc]elsius|[Ff]ahrenheit|[Kk]elvin)($|[^a-z])";
@@ -131,17 +120,19 @@ Json recording_schema() {
   column("voltage", "of the supply: u is the input, a duty, times it");
   column("target", "commanded position, in the unit of the position; controller: makes the input of it");
   column("speed", "in place of position: x1 is its integral");
+  column("mass", "on the arm, one number for the whole file [kg]");
+  column("arm", "of that mass [m]");
+  column("gain", "of the controller then, times the gain of controller:");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
   resample.required = {"rate"};
-  recording.add("file", files_or_file("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
-                                      "several are never concatenated"));
-  recording.add("held_out", files_or_file("only diagnose reads it; other files than file"));
-  recording.add(
-      "simulated",
-      files_or_file("what a simulator of yours answers to the same input: one for each file, or for "
-                    "each file and each held_out; only diagnose reads it"));
+  recording.add("file", files_schema("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
+                                     "several are never concatenated"));
+  recording.add("held_out", files_schema("only diagnose reads it; other files than file"));
+  recording.add("simulated",
+                files_schema("what a simulator of yours answers to the same input: one for each file, or for "
+                             "each file and each held_out; only diagnose reads it"));
   recording.add(
       "columns",
       columns.schema("names of the columns (of another file than a CSV: its arrays), or their places from 1 "

@@ -42,6 +42,12 @@ const LawKey kDeadBand = {"dead_band",
                           kFixed,
                           &DriveController::dead_band};
 
+const LawKey kFallsAt = {"falls_at",
+                         {1e-9, 1e6, "rad"},
+                         "error at which the gain has fallen to 1/sqrt(2) of that of small ones",
+                         kFixed,
+                         &DriveController::falls_at};
+
 const LawKeys kPositionAlone = {
     {"gain", {-kGainMost, kGainMost, "unit of u per rad"}, "of the position error", at::kGain},
     {"derivative",
@@ -55,10 +61,12 @@ const LawKeys kPositionAlone = {
     kRate,
     kDelay,
     kSaturation,
-    kDeadBand};
+    kDeadBand,
+    kFallsAt};
 const LawKeys kPositionOfCascade = {
     {"gain", {-kGainMost, kGainMost, "1/s"}, "the speed that an error of position asks for", at::kGain},
-    kDeadBand};
+    kDeadBand,
+    kFallsAt};
 const LawKeys kVelocity = {
     {"gain", {-kGainMost, kGainMost, "unit of u s/rad"}, "of the error of the speed", at::kSpeedGain},
     {"integral",
@@ -68,6 +76,27 @@ const LawKeys kVelocity = {
     kRate,
     kDelay,
     kSaturation};
+
+/// What the firmware makes of the goal, and the drive while it is switched off.
+const LawKeys kProfile = {
+    {"speed", {1e-9, 1e9, "rad/s"}, "of the goal at most", kFixed, &DriveController::profile_speed},
+    {"acceleration",
+     {1e-9, 1e12, "rad/s^2"},
+     "of the goal at most",
+     kFixed,
+     &DriveController::profile_acceleration}};
+const LawKeys kBesideLaws = {{"goal_filter_s",
+                              {0.0, 1e3, "s"},
+                              "time constant of a filter of the goal",
+                              kFixed,
+                              &DriveController::goal_filter},
+                             {"off_damping",
+                              {0.0, 1e9, "N m s/rad"},
+                              "of the motor's side while it is switched off; default: motor_damping",
+                              kFixed,
+                              &DriveController::off_damping}};
+constexpr const char *kAuto = "auto", *kGoalDelayKey = "goal_delay_s";
+constexpr Range kGoalDelay = {0.0, 10.0, "s"};
 
 std::vector<std::string> names_of(const LawKeys& keys) {
   std::vector<std::string> names;
@@ -104,18 +133,44 @@ void read_law(const Value& value, const LawKeys& keys, ControllerModel& model) {
   }
 }
 
+void read_fixed(const Section& section, const LawKeys& keys, DriveController& controller) {
+  for (const LawKey& key : keys)
+    if (const auto given = section.find(key.key)) controller.*key.fixed = given->number(key.range);
+}
+
+/// `rate: auto`, or in Hz; without the key and one of a law it is sought where a target was recorded.
+void read_rate(const Section& section, bool of_law, ControllerModel& model) {
+  const auto rate = section.find("rate");
+  model.rate_sought = !rate && !of_law;
+  if (!rate) return;
+  if (of_law) rate->fail("stands beside the rate of a law, expected it once");
+  model.rate_sought = rate->is_text() && rate->node().Scalar() == kAuto;
+  if (!model.rate_sought) model.fixed.rate = rate->number(kRate.range);
+}
+
+bool has_rate(const std::optional<Value>& law) {
+  return law && law->is_map() && law->node()["rate"].IsDefined();
+}
+
 ControllerModel read_laws(const Value& controller) {
-  const Section section(controller, {"position", "velocity"});
+  const Section section(
+      controller, {"position", "velocity", "profile", "rate", "goal_filter_s", kGoalDelayKey, "off_damping"});
+  ControllerModel model;
+  if (const auto profile = section.find("profile"))
+    read_fixed(Section(*profile, names_of(kProfile)), kProfile, model.fixed);
+  read_fixed(section, kBesideLaws, model.fixed);
+  if (const auto delay = section.find(kGoalDelayKey))
+    model.fixed.goal_delay = static_cast<float>(delay->number(kGoalDelay));
   const auto position = section.find("position"), velocity = section.find("velocity");
   if (!position && !velocity)
     section.require("position", "position: {gain: ...}, velocity: {gain: ...} or both, a cascade");
-  ControllerModel model;
   model.fixed.kind = !velocity  ? ControllerKind::kPosition
                      : position ? ControllerKind::kCascade
                                 : ControllerKind::kVelocity;
   for (ParameterSetting& number : model.numbers) number.value = 0.0;
   if (position) read_law(*position, velocity ? kPositionOfCascade : kPositionAlone, model);
   if (velocity) read_law(*velocity, kVelocity, model);
+  read_rate(section, has_rate(position) || has_rate(velocity), model);
   return model;
 }
 
@@ -131,10 +186,17 @@ void require_estimable(const Value& controller, const RecordingConfig& recording
         "none");
 }
 
+void write_fixed(YamlWriter& out, const LawKeys& keys, const DriveController& controller) {
+  for (const LawKey& key : keys)
+    if (const double value = controller.*key.fixed; std::isfinite(value))
+      out.quantity(key.key, yaml_number(value), key.range.unit);
+}
+
 void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const ControllerModel& model,
                const std::string& unit_of_output) {
   out.open(name);
   for (const LawKey& key : keys) {
+    if (model.rate_sought && key.fixed == &DriveController::rate) continue;
     const std::string unit = replaced(key.range.unit, "unit of u", unit_of_output);
     if (key.fixed == nullptr) {
       const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(key.number)];
@@ -172,12 +234,11 @@ Json inner_law() {
 
 /// A gain of its own has a recording only under a controller.
 void require_controlled(const Configuration& c, bool controlled) {
-  const RecordingConfig& r = *c.recording;
-  for (const auto* files : {&r.files, &r.held_out, &r.simulated})
+  for (const auto* files : {&c.recording->files, &c.recording->held_out})
     for (const RecordedFile& file : *files)
-      if (file.gain_times != 1.0 && (!controlled || files == &r.simulated))
+      if (file.gain_times != 1.0 && !controlled)
         throw ConfigError(c.file, file.line,
-                          "gain_times stands beside " + file.given +
+                          "a gain stands beside " + file.given +
                               ", expected it beside a recording under a controller: that is given");
 }
 
@@ -188,6 +249,7 @@ void read_simulated(const Value& controller, const ControllerModel& model, Confi
   if (c.simulation->independent)
     controller.fail("stands beside plant: independent, expected plant: simulator");
   c.controller = model;
+  c.controller->rate_sought = false;
 }
 
 }  // namespace
@@ -226,7 +288,17 @@ std::string controller_output_unit(bool supplied, bool is_torque, const Declared
 
 void write_controller(YamlWriter& out, const ControllerModel& model, const std::string& unit_of_output) {
   const ControllerKind kind = model.fixed.kind;
+  const DriveController& fixed = model.fixed;
   out.open("controller");
+  if (std::isfinite(fixed.profile_speed) || std::isfinite(fixed.profile_acceleration)) {
+    out.open("profile");
+    write_fixed(out, kProfile, fixed);
+    out.close();
+  }
+  write_fixed(out, kBesideLaws, fixed);
+  if (fixed.goal_delay > 0.0F)
+    out.quantity(kGoalDelayKey, yaml_number(std::stod(fmt::format("{}", fixed.goal_delay))), kGoalDelay.unit);
+  if (model.rate_sought) out.entry("rate", kAuto);
   if (kind != ControllerKind::kVelocity)
     write_law(out, "position", kind == ControllerKind::kCascade ? kPositionOfCascade : kPositionAlone, model,
               unit_of_output);
@@ -241,11 +313,20 @@ Json controller_schema() {
                             "of the position that is recorded; beside velocity its gain [1/s] asks "
                             "for a speed, and it has gain and dead_band alone"));
   controller.add("velocity", law_schema(kVelocity, "of the speed, of which alone the target is one"));
+  MapSchema profile;
+  for (const LawKey& key : kProfile) profile.add(key.key, number_schema(key.range, key.doc));
+  controller.add("profile", profile.schema("of the goal, as the firmware follows it"));
+  controller.add("rate", one_of({number_schema(kRate.range, ""), words_schema({kAuto}, "")},
+                                "of its updates; auto, the default: at the rows or between them, as the "
+                                "recordings prefer; 0: one at each row"));
+  controller.add(kGoalDelayKey, number_schema(kGoalDelay, "from the host's goal to the controller"));
+  for (const LawKey& key : kBesideLaws) controller.add(key.key, number_schema(key.range, key.doc));
   Json schema = controller.schema(
       "of the drive's firmware: makes the input of recording: columns: target, or of the excitation "
       "[rad] of a simulation");
-  schema["minProperties"] = 1;
+  schema["anyOf"] = Json::array({{{"required", {"position"}}}, {{"required", {"velocity"}}}});
   add_rule(where(having("velocity"), inner_law()), schema);
+  add_rule(where(having("rate"), none_of({having("position.rate"), having("velocity.rate")})), schema);
   return schema;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "config/field_reader.h"
+#include "config/file_facts.h"
 #include "config/units_reader.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -33,7 +34,14 @@ ReadOptions RecordingConfig::reading_for(UnevenRows uneven) const {
 ReadOptions RecordingConfig::reading_of(const RecordedFile& file, UnevenRows uneven) const {
   ReadOptions options = reading_for(uneven);
   options.gain_times = file.gain_times;
+  if (file.window) options.window = file.window;
+  options.off = file.off;
+  if (!std::isnan(file.voltage)) options.voltage = file.voltage;
   return options;
+}
+
+bool RecordingConfig::is_supplied() const {
+  return !reading.columns.voltage.empty() || !std::isnan(files.front().voltage);
 }
 
 namespace {
@@ -74,45 +82,6 @@ namespace {
 const std::vector<std::string> kSimulationKeys = {"rate",    "duration", "seed",  "excitation",
                                                   "initial", "noise",    "plant", "model"};
 
-/// A name, or one beside the controller's gain during that recording.
-RecordedFile read_file(const Value& item, const std::string& folder) {
-  RecordedFile file;
-  Value name = item;
-  if (item.is_map()) {
-    const Section section(item, {"name", "gain_times"});
-    name = section.require("name", "a file");
-    if (const auto times = section.find("gain_times")) file.gain_times = times->number(kGainTimes);
-  }
-  if (!name.is_text()) name.fail_expecting("a file or a list of files");
-  file.given = name.text();
-  file.path = (std::filesystem::path(folder) / file.given).lexically_normal().string();
-  file.line = name.line();
-  return file;
-}
-
-std::vector<Value> items_of(const Value& value) {
-  std::vector<Value> items = value.is_list() ? value.items() : std::vector<Value>{value};
-  if (items.empty()) value.fail("is an empty list, expected a file or a list of files");
-  return items;
-}
-
-std::vector<RecordedFile> read_files(const Value& value, const std::string& folder,
-                                     std::set<std::string>& seen) {
-  const std::set<std::string> before = seen;
-  std::vector<RecordedFile> files;
-  for (const Value& item : items_of(value)) {
-    files.push_back(read_file(item, folder));
-    const RecordedFile& file = files.back();
-    if (before.contains(file.path))
-      item.fail(
-          fmt::format("names {}, which recording names above, too, expected another file (--set {}=FILE)",
-                      file.given, value.path()));
-    if (!seen.insert(file.path).second)
-      item.fail(fmt::format("names {} a second time, expected each recording once", file.given));
-  }
-  return files;
-}
-
 void read_column(const Section& section, const char* key, std::string& name, std::set<std::string>& taken) {
   const auto given = section.find(key);
   if (given) name = given->text();
@@ -121,8 +90,9 @@ void read_column(const Section& section, const char* key, std::string& name, std
         .fail(fmt::format("uses the column {} twice, expected each column once", name));
 }
 
-RecordingColumns read_columns(const Value& value) {
-  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target", "speed"});
+RecordingColumns read_columns(const Value& value, RecordingConfig& recording) {
+  const Section section(value, {"time", "input", "position", "load_position", "voltage", "target", "speed",
+                                "mass", "arm", "gain"});
   RecordingColumns columns;
   std::set<std::string> taken;
   read_column(section, "time", columns.time, taken);
@@ -141,6 +111,10 @@ RecordingColumns read_columns(const Value& value) {
   columns.position_named = speed || section.find("position");
   if (section.find("voltage")) read_column(section, "voltage", columns.voltage, taken);
   if (section.find("target")) read_column(section, "target", columns.target, taken);
+  for (const auto& [key, name] : {std::pair{"mass", &recording.mass_column},
+                                  {"arm", &recording.arm_column},
+                                  {"gain", &recording.gain_column}})
+    if (section.find(key)) read_column(section, key, *name, taken);
   if (!columns.target.empty() && !section.find("input")) columns.input_column = InputColumn::kNone;
   return columns;
 }
@@ -188,16 +162,16 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
       value, {"file", "held_out", "simulated", "columns", "units", "registers", "gear_ratio", "window",
               "resample", "lost_rows", "rate", "unwrap", "input_rows"});
   RecordingConfig recording;
-  std::set<std::string> seen;
-  recording.files = read_files(section.require("file", "a file or a list of files"), folder, seen);
+  recording.files = read_files(section.require("file", "a file or a list of files"), folder, {});
   if (const auto held_out = section.find("held_out"))
-    recording.held_out = read_files(*held_out, folder, seen);
+    recording.held_out = read_files(*held_out, folder, recording.files);
   recording.reading.encoder = encoder.side();
   if (const auto simulated = section.find("simulated")) {
-    for (const Value& item : items_of(*simulated)) recording.simulated.push_back(read_file(item, folder));
+    recording.simulated = read_simulated_files(*simulated, folder);
     if (const std::string problem = recording.simulated_problem(); !problem.empty()) simulated->fail(problem);
   }
-  if (const auto columns = section.find("columns")) recording.reading.columns = read_columns(*columns);
+  if (const auto columns = section.find("columns"))
+    recording.reading.columns = read_columns(*columns, recording);
   if (const auto rate = section.find("rate")) recording.reading.columns.rate = rate->number(kRowRates);
   if (const auto unwrap = section.find("unwrap"))
     recording.reading.unwrap = static_cast<Unwrap>(unwrap->word({"auto", "true", "false"}));
@@ -205,11 +179,11 @@ RecordingConfig read_recording_block(const Value& value, const std::string& fold
     recording.reading.input_rows = static_cast<int>(rows->integer(-kMostInputRows, kMostInputRows));
   if (encoder.sides == EncoderSides::kBoth) recording.reading.columns.load_position_required = true;
   read_units(section, encoder, coordinates, recording);
-  if (const auto window = section.find("window"))
-    recording.reading.window = window->rising_pair({-kInfinity, kInfinity, "s"});
+  if (const auto window = section.find("window")) recording.reading.window = window->rising_pair(kWindow);
   if (const auto lost = section.find("lost_rows"))
     recording.reading.lost_rows = static_cast<LostRows>(lost->word({"held", "bridged"}));
   if (const auto resample = section.find("resample")) read_resampling(*resample, recording);
+  read_facts_of_files(recording);
   return recording;
 }
 

@@ -5,9 +5,6 @@
 
 namespace gapscope::internal::config {
 
-/// What the gain of a controller may have been in one recording, over the declared one.
-inline constexpr Range kGainTimes = {1e-6, 1e6, "-"};
-
 /// At which the rows of a file without times may come.
 inline constexpr Range kRowRates = {1e-3, 1e7, "Hz"};
 

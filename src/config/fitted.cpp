@@ -86,7 +86,7 @@ Configuration with_model(const Configuration& given, const ReferenceModel& fitte
   c.name = given.name.substr(0, kLongestName).append(kFittedSuffix);
   c.recording.reset();
   c.controller.reset();
-  c.anchor.reset();
+  if (c.anchor) c.anchor = c.anchor->what_hangs();
   c.model.structure = fitted.structure;
   c.model.parameters = fitted.parameters;
   for (ParameterSetting& p : c.model.parameters) fix(p);
@@ -126,11 +126,27 @@ ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
 
 namespace {
 
+/// With what that recording's load has beyond that of the model.
+ReferenceModel with_load_of(const MotorTrace& recording, ReferenceModel model) {
+  if (recording.load.is_none()) return model;
+  ParameterSetting& inertia = model.parameters[place::kMotorInertia];
+  if (model.structure.has_load)
+    model.parameters[place::kMassRatio].value += recording.load.inertia / inertia.value;
+  else
+    inertia.value += recording.load.inertia;
+  const auto hangs = std::find_if(model.effects.begin(), model.effects.end(), [](const ModelEffect& e) {
+    return e.entry == find_effect("load_unbalance");
+  });
+  if (hangs != model.effects.end()) hangs->parameters[0].value += recording.load.gravity;
+  return model;
+}
+
 /// @param begin  null: not known
 std::string begun_yaml(const Configuration& given, const ReferenceModel& fitted, const std::string& trace,
                        const MotorTrace& recording, const DriveState<double>* begin,
                        const std::optional<DriveController>& controller) {
-  Configuration c = with_model(given, fitted);
+  Configuration c = with_model(given, with_load_of(recording, fitted));
+  if (c.anchor) c.anchor->take(recording.load);
   std::string input = "its input";
   if (!c.simulation) {
     c.simulation = trace.empty() ? simulation_of(recording) : replay_of(recording, trace);
@@ -180,7 +196,8 @@ std::string experiment_yaml(const Configuration& given, const ReferenceModel& mo
 std::string fit_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
                      const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
-  Configuration c = with_model(given, fitted_model(given.reference_model(), fit));
+  Configuration c = with_model(given, with_load_of(recording, fitted_model(given.reference_model(), fit)));
+  if (c.anchor) c.anchor->take(recording.load);
   if (!c.simulation) c.simulation = replay_of(recording, trace);
   if (recording.command != nullptr && given.recording && given.recording->reading.controller)
     command(

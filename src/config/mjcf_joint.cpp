@@ -113,6 +113,8 @@ const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumb
 void read_actuation(const Mjcf& m, const std::string& joint, JointNumbers& n) {
   const Actuation a = actuation_of(m, joint);
   n.torque_constant = a.gain, n.constant_torque = a.constant, n.lag = a.lag, n.input_limit = a.limit;
+  n.servo = a.servo;
+  if (a.back_emf > 0.0) n.damping = (std::isnan(n.damping) ? 0.0 : n.damping) + a.back_emf;
   n.notes.insert(n.notes.end(), a.notes.begin(), a.notes.end());
 }
 

@@ -8,6 +8,7 @@
 
 #include "config/anchor_reader.h"
 #include "config/controller_reader.h"
+#include "config/file_facts.h"
 #include "config/parameter_setting.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
@@ -27,21 +28,12 @@ std::string joined(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void write_files(YamlWriter& out, const char* key, const std::vector<RecordedFile>& files) {
-  if (files.empty()) return;
-  std::vector<std::string> list;
-  for (const RecordedFile& file : files)
-    list.push_back(file.gain_times == 1.0 ? yaml_text(file.given)
-                                          : fmt::format("{{name: {}, gain_times: {}}}", yaml_text(file.given),
-                                                        yaml_number(file.gain_times)));
-  out.entry(key, "[" + joined(list) + "]");
-}
-
 void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   out.open("recording");
-  write_files(out, "file", recording.files);
-  write_files(out, "held_out", recording.held_out);
-  write_files(out, "simulated", recording.simulated);
+  for (const auto& [key, files] : {std::pair{"file", &recording.files},
+                                   {"held_out", &recording.held_out},
+                                   {"simulated", &recording.simulated}})
+    internal::config::write_files(out, key, *files);
   out.open("columns");
   const RecordingColumns& columns = recording.reading.columns;
   if (columns.rate == 0.0) out.entry("time", yaml_text(columns.time));
@@ -57,6 +49,10 @@ void write_recording(YamlWriter& out, const RecordingConfig& recording) {
   }
   if (!columns.voltage.empty()) out.entry("voltage", yaml_text(columns.voltage));
   if (!columns.target.empty()) out.entry("target", yaml_text(columns.target));
+  for (const auto& [key, name] : {std::pair{"mass", &recording.mass_column},
+                                  {"arm", &recording.arm_column},
+                                  {"gain", &recording.gain_column}})
+    if (!name->empty()) out.entry(key, yaml_text(*name));
   out.close();
   internal::config::write_rows(out, recording.reading);
   internal::config::write_units(out, recording);
@@ -196,7 +192,7 @@ void write_reading(YamlWriter& out, const Configuration& c) {
   if (c.simulation) write_simulation(out, *c.simulation, c.coordinates);
   write_encoder(out, c.encoder);
   const bool supplied = (c.simulation && !c.simulation->excitation.voltage_column.empty()) ||
-                        (c.recording && !c.recording->reading.columns.voltage.empty());
+                        (c.recording && c.recording->is_supplied());
   const std::string unit = internal::config::controller_output_unit(
       supplied, internal::config::gain_is_torque(c), c.recording ? c.recording->units : DeclaredUnits{},
       c.coordinates);

@@ -109,10 +109,12 @@ void add_unit_rules(Json& c) {
 }
 
 Json files_with_gain() {
-  const Json one = {{"type", "object"},
-                    {"required", {"gain_times"}},
-                    {"properties", {{"gain_times", none_of({being(1)})}}}};
-  return any_of({one, {{"type", "array"}, {"contains", one}}});
+  std::vector<Json> either;
+  for (const char* key : {"gain", "gain_times"}) {
+    const Json one = {{"type", "object"}, {"required", {key}}, {"properties", {{key, none_of({being(1)})}}}};
+    either.push_back(one), either.push_back({{"type", "array"}, {"contains", one}});
+  }
+  return any_of(either);
 }
 
 void add_controller_rules(Json& c) {
@@ -126,7 +128,9 @@ void add_controller_rules(Json& c) {
                                     {having("recording.resample"),
                                      none_of({having("recording.resample.for", being("detector"))})}}}})),
            c);
-  add_rule(none_of({having("recording.simulated", files_with_gain())}), c);
+  const Json facts = {{"type", "object"}, {"minProperties", 2}};
+  const Json some = any_of({facts, {{"type", "array"}, {"contains", facts}}});
+  add_rule(none_of({having("recording.simulated", some)}), c);
   add_rule(where(lacking("controller"), none_of({having("recording.file", files_with_gain()),
                                                  having("recording.held_out", files_with_gain())})),
            c);
@@ -138,10 +142,13 @@ void add_anchor_rules(Json& c) {
   add_rule(where(having("anchor.inertia"), none_of({having("model.parameters.motor_inertia")})), c);
   add_rule(where(having("anchor.friction"), none_of({having_effect("motor_coulomb_friction")})), c);
   const Json geared = none_of({{{"enum", {1, -1}}}});
-  add_rule(where(having("anchor.mass"), none_of({locked("model."), having_effect("load_unbalance"),
-                                                 having("recording.gear_ratio.position", geared),
-                                                 having("recording.gear_ratio.load_position", geared)})),
+  add_rule(where({{"allOf", {having("anchor.mass"), having("recording")}}},
+                 none_of({having_effect("load_unbalance")})),
            c);
+  add_rule(
+      where(having("anchor.mass"), none_of({locked("model."), having("recording.gear_ratio.position", geared),
+                                            having("recording.gear_ratio.load_position", geared)})),
+      c);
 }
 
 void add_detector_rules(Json& c) {

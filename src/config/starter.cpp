@@ -148,7 +148,7 @@ void write_commanding(YamlWriter& out, const RecordingConfig& recording, bool so
     model.numbers[static_cast<std::size_t>(leading_number(model.fixed.kind))] = ParameterSetting::sought();
   internal::config::write_controller(
       out, model,
-      internal::config::controller_output_unit(!recording.reading.columns.voltage.empty(),
+      internal::config::controller_output_unit(recording.is_supplied(),
                                                sought && !std::isfinite(model.fixed.saturation),
                                                recording.units, coordinates));
 }

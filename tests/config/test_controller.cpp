@@ -70,9 +70,10 @@ TEST(Controller, HasNoOtherGainWhereThereIsNone) {
     return refusal([&] { parse_configuration("recording:\n  file: " + file + "\n", "c.yaml"); });
   };
   EXPECT_THAT(refused("{name: b.csv, gain_times: 2}"),
-              HasSubstr("c.yaml:2: gain_times stands beside b.csv, expected it beside a recording under"));
+              HasSubstr("c.yaml:2: a gain stands beside b.csv, expected it beside a recording under"));
   EXPECT_THAT(refused("{name: b.csv, gain_times: 0}"), HasSubstr("gain_times"));
-  EXPECT_THAT(refused("{gain_times: 2}"), HasSubstr("name"));
+  EXPECT_THAT(refused("{gain_times: 2}"), HasSubstr("file"));
+  EXPECT_THAT(refused("{file: b.csv, gain: 2, gain_times: 2}"), HasSubstr("stands beside gain"));
 }
 
 TEST(Controller, IsRefusedWhereItCannotServe) {

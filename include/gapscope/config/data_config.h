@@ -22,6 +22,17 @@ struct RecordedFile {
   std::string path;         ///< relative to the configuration's own folder, so that it can be opened
   int line = 0;             ///< of the configuration
   double gain_times = 1.0;  ///< the controller's gain in it, over that of `controller:` [-]
+  std::optional<std::pair<double, double>> window = {};  ///< the part of it that is used [s]
+  std::optional<std::pair<double, double>> off = {};     ///< between which it was switched off [s]
+  double mass = kNaN;                                    ///< on its arm; NaN: that of `anchor:` [kg]
+  double arm = kNaN;                                     ///< the same of the distance from the axis [m]
+  double voltage = kNaN;                                 ///< of the supply; NaN: as for all [V]
+  AddedLoad load = {};                                   ///< of its mass on its arm, beyond that of `anchor:`
+
+  /// Whether more is known of it than its name.
+  bool has_facts() const;
+  /// Whether both are the same rows.
+  bool is_same_part(const RecordedFile& other) const { return path == other.path && window == other.window; }
 };
 
 /// `recording:` – data from files. Several are never concatenated.
@@ -31,12 +42,16 @@ struct RecordingConfig {
   /// What a simulator of the user's answers to the same inputs: one for each of `files`, then, if any is held
   /// out, one for each of `held_out` or none. Empty: there is none.
   std::vector<RecordedFile> simulated = {};
-  ReadOptions reading;                 ///< columns with what units and gears make of them, window, resampling
+  ReadOptions reading;  ///< columns with what units and gears make of them, window, resampling
+  std::string mass_column = {}, arm_column = {}, gain_column = {};  ///< where the files have these numbers
   bool resample_for_detector = false;  ///< fit and diagnose take the rows as they are
   DeclaredUnits units;
   RegisterForms registers;
   GearRatios gear;
   std::vector<Remark> assumed = {};  ///< what of this nobody declared
+
+  /// Whether the supply's voltage multiplies the input.
+  bool is_supplied() const;
 
   /// @returns what is wrong with the number of simulated recordings; empty: nothing
   std::string simulated_problem() const;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
+#include "gapscope/recording/controller.h"
 
 namespace gapscope {
 
@@ -37,23 +38,24 @@ struct JointNumbers {
   double friction = kNaN;      ///< dry, on the motor's side [N m]
   double torque_constant = kNaN;  ///< [N m per unit of the control]
   double unbalance = kNaN;  ///< gravity's torque −G sin(x + phase), on the load where there is one [N m]
-  double unbalance_phase = 0.0;        ///< [rad]
-  std::optional<HangingBody> hanging;  ///< what has that torque, or would; nothing: not known
-  double constant_torque = 0.0;        ///< on the motor's side: an actuator's bias, a slide's weight [N m]
-  double load_constant_torque = 0.0;   ///< the same on the load [N m]
-  double weight = 0.0;                 ///< of either what gravity has, along a slide [N]
-  double lag = 0.0;                    ///< time constant of the actuator's filter [s]; 0: none
-  double input_limit = kInfinity;      ///< of the control, either way
-  double gap = kNaN;                   ///< [rad]; the numbers below belong to it
-  bool locked = false;                 ///< its other side is the ground
-  std::string load_joint;              ///< the name of the load's; empty: it has none of its own
-  double load_body_inertia = kNaN;     ///< as body_inertia [kg m²]
-  double load_inertia = kNaN;          ///< [kg m²]
-  double load_damping = kNaN;          ///< [N m s/rad]
-  double load_friction = kNaN;         ///< [N m]
-  double stiffness = kNaN;             ///< of the contact [N m/rad]
-  double contact_damping = kNaN;       ///< [N m s/rad]
-  std::vector<std::string> notes;      ///< what was left aside, as sentences
+  double unbalance_phase = 0.0;          ///< [rad]
+  std::optional<HangingBody> hanging;    ///< what has that torque, or would; nothing: not known
+  double constant_torque = 0.0;          ///< on the motor's side: an actuator's bias, a slide's weight [N m]
+  double load_constant_torque = 0.0;     ///< the same on the load [N m]
+  double weight = 0.0;                   ///< of either what gravity has, along a slide [N]
+  double lag = 0.0;                      ///< time constant of the actuator's filter [s]; 0: none
+  double input_limit = kInfinity;        ///< of the control, either way
+  std::optional<DriveController> servo;  ///< that the control is the goal of, then u is its torque; of MJCF
+  double gap = kNaN;                     ///< [rad]; the numbers below belong to it
+  bool locked = false;                   ///< its other side is the ground
+  std::string load_joint;                ///< the name of the load's; empty: it has none of its own
+  double load_body_inertia = kNaN;       ///< as body_inertia [kg m²]
+  double load_inertia = kNaN;            ///< [kg m²]
+  double load_damping = kNaN;            ///< [N m s/rad]
+  double load_friction = kNaN;           ///< [N m]
+  double stiffness = kNaN;               ///< of the contact [N m/rad]
+  double contact_damping = kNaN;         ///< [N m s/rad]
+  std::vector<std::string> notes;        ///< what was left aside, as sentences
 };
 
 /// Reads a joint of an MJCF (`mujoco`) or URDF (`robot`). Of MJCF: armature, damping, frictionloss with their

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,8 +45,11 @@ struct AnchorConfig {
   double inertia = kNaN;      ///< of the motor's side [kg m²]
   double friction = kNaN;     ///< dry, of the motor's side [N m]
 
-  double torque() const;        ///< of the mass, at most [N m]
-  double mass_inertia() const;  ///< [kg m²]
+  static ParameterSetting about_zero();  ///< of an angle that is not written: it is looked for about 0
+  double torque() const;                 ///< of the mass, at most [N m]
+  double mass_inertia() const;           ///< [kg m²]
+  void take(const AddedLoad& load);      ///< becomes the mass and the arm that have this beyond its own
+  std::optional<AnchorConfig> what_hangs() const;  ///< the mass on its arm alone; nothing where there is none
   void fix(ReferenceModel& model) const;
   std::string told(Coordinates coordinates) const;  ///< one sentence
 };

@@ -58,6 +58,7 @@ struct ModelEffect {
 struct ControllerModel {
   DriveController fixed;                                         ///< its laws, rate, limit and dead band
   std::array<ParameterSetting, kControllerNumberCount> numbers;  ///< in the order of kControllerNumbers
+  bool rate_sought = false;  ///< at its rows or between them, as the recordings prefer
 
   static ControllerModel known(const DriveController& controller);  ///< nothing is estimated
   bool estimates() const;
