@@ -51,6 +51,8 @@ ExportSource source_of(const Configuration& c, std::vector<double> u, const std:
   source.plant.structure.encoder = EncoderSide::kMotor;  // a simulator's motion is that of the motor
   source.initial = {s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2};
   source.all_u = source.u;
+  if (c.anchor && !std::isnan(c.anchor->mass))
+    source.hangs = {c.anchor->mass, c.anchor->arm, c.anchor->gravity};
   const auto most = static_cast<std::size_t>(std::llround(kLongestJudged * s.rate));
   source.u.resize(std::min(source.u.size(), std::max<std::size_t>(most, 1)));
   return source;

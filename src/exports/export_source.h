@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "exports/offset_mass.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/config/joint_numbers.h"
 #include "gapscope/plant/plant_model.h"
@@ -24,6 +25,7 @@ struct ExportSource {
   double encoder_floor = 0.0;            ///< [rad]; NaN: the encoder is not known
   std::string input;                     ///< in words
   std::string configuration;             ///< as resolved
+  KnownMass hangs = {};                  ///< what is known to make its gravity
   bool commanded = false;                ///< a controller makes the input, which no format has
   std::optional<JointNumbers> own = {};  ///< of the model of the user's own, where it is known
 

@@ -11,7 +11,7 @@ namespace {
 /// The link that turns or slides, in the words that URDF and SDF share.
 OffsetMass link_mass(const FlatJoint& joint, bool turns) {
   const double inertia = joint.armature + joint.link;
-  OffsetMass m = offset_mass(inertia, joint.unbalance, joint.unbalance_phase);
+  OffsetMass m = offset_mass(inertia, joint.unbalance, joint.unbalance_phase, joint.hangs);
   if (!turns) m.mass = inertia;
   return m;
 }

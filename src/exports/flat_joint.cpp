@@ -63,6 +63,7 @@ FlatJoint flat_joint(const ExportSource& s) {
   if (hangs_from_the_axis(s)) {
     joint.unbalance = of("load_unbalance", "amplitude_nm");
     joint.unbalance_phase = of("load_unbalance", "phase_rad");
+    joint.hangs = s.hangs;
   }
   joint.limited = s.plant.structure.has_load && s.plant.structure.load == LoadKind::kLocked;
   joint.low = s.initial.x2 - 0.5 * p.gap, joint.high = s.initial.x2 + 0.5 * p.gap;

@@ -16,6 +16,7 @@ struct FlatJoint {
   double stribeck_speed = 0.0, stribeck_exponent = 2.0;  ///< at which that has gone [rad/s]
   double load_share = 0.0;                               ///< friction per torque of the gears [-]
   double unbalance = 0.0, unbalance_phase = 0.0;
+  KnownMass hangs = {};          ///< what is known to make it
   bool limited = false;          ///< the output is held: the joint moves within the gap
   double low = 0.0, high = 0.0;  ///< [rad]
   double effort = 0.0;           ///< most torque that the input brings [N m]

@@ -18,7 +18,7 @@ namespace {
 /// On a slide the mass is the inertia.
 std::string inertial(const MujocoDrive& d, std::size_t body, bool turns) {
   const bool heavy = body == (d.has_load && !d.locked ? 1u : 0u);
-  OffsetMass m = offset_mass(d.inertia[body], heavy ? d.unbalance : 0.0, d.unbalance_phase);
+  OffsetMass m = offset_mass(d.inertia[body], heavy ? d.unbalance : 0.0, d.unbalance_phase, d.hangs);
   if (!turns) m.mass = d.inertia[body];
   return fmt::format("<inertial pos=\"{} 0 {}\" mass=\"{}\" diaginertia=\"{} {} {}\"/>", m.x, m.z, m.mass,
                      m.own, m.own, m.own);
@@ -121,7 +121,7 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
         s.stem);
   if (d.friction[0] > 0.0 || (d.friction[1] > 0.0 && !d.locked))
     text += "     solreffriction is raised to two steps by MuJoCo, whatever the step is.\n";
-  if (d.unbalance > 0.0)
+  if (d.unbalance > 0.0 && !(d.hangs.mass > 0.0))
     text += "     Of gravity only m g r is known: the mass stands for it at an arm that is assumed.\n";
   if (!chosen.note.empty()) text += "     " + chosen.note + ".\n";
   return text.insert(text.size() - 1, " -->");
@@ -132,7 +132,7 @@ std::string alone(const ExportSource& s, const MujocoDrive& d, const ChosenStep&
          fmt::format(
              "<mujoco model=\"{}\">\n  <option timestep=\"{}\" integrator=\"RK4\" gravity=\"0 0 -{}\" "
              "tolerance=\"1e-15\" iterations=\"100\"/>\n",
-             s.stem, chosen.step, kGravity) +
+             s.stem, chosen.step, d.hangs.gravity) +
          parts(s, d) + start(s, d) + "</mujoco>\n";
 }
 

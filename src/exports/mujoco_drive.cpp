@@ -46,6 +46,7 @@ MujocoDrive mujoco_drive(const ExportSource& s) {
   if (hangs_from_the_axis(s)) {
     d.unbalance = effect_value(s, "load_unbalance", "amplitude_nm");
     d.unbalance_phase = effect_value(s, "load_unbalance", "phase_rad");
+    d.hangs = s.hangs;
   }
   d.place[0] = s.initial.x1, d.place[1] = s.initial.x2;
   d.speed[0] = s.initial.w1, d.speed[1] = s.initial.w2;

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "exports/offset_mass.h"
+
 namespace gapscope::internal::exports {
 
 /// What an exported MJCF says of a drive: one or two bodies, each on a joint of its own.
@@ -23,6 +25,7 @@ struct MujocoDrive {
   double load_place = 0.0;       ///< x2 of a locked output [rad]
   double unbalance = 0.0;  ///< amplitude of gravity's torque on the load, without one on the motor [N m]
   double unbalance_phase = 0.0;         ///< −G sin(x + phase) [rad]
+  KnownMass hangs = {};                 ///< what is known to make it
   double place[2] = {}, speed[2] = {};  ///< at the start [rad, rad/s]
 
   /// 1/m1 + 1/m2, of a locked output 1/m1: what a torque of the contact does to x1 − x2 [1/(kg m²)]
