@@ -16,6 +16,7 @@
 #include "gapscope/diagnosis/error_budget.h"
 #include "gapscope/diagnosis/evidence.h"
 #include "gapscope/diagnosis/last_resort.h"
+#include "gapscope/diagnosis/loop_fit.h"
 #include "gapscope/diagnosis/named_value.h"
 #include "gapscope/diagnosis/next_experiment.h"
 #include "gapscope/diagnosis/whole_run.h"
@@ -235,6 +236,8 @@ struct Diagnosis {
 
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
   NextExperiment next_experiment;                  ///< that would; left to the caller, as it takes time
+  std::vector<HeldOutRun> held_out_runs;           ///< each held-out recording
+  std::optional<LoopFit> loop;                     ///< the model that these are of, under its controller
   std::optional<ClosedLoop> closed_loop;           ///< where a controller is at work that is known
   std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added
 
