@@ -86,6 +86,39 @@ std::string closed_loop_table(const DiagnosisResult& r) {
   return text;
 }
 
+/// Each recording beside the model that was fitted for it, worst first.
+std::string loop_runs_table(const char* heading, std::vector<HeldOutRun> runs, const std::string& unit) {
+  if (runs.empty()) return "";
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const HeldOutRun& a, const HeldOutRun& b) { return a.mae > b.mae; });
+  double sum = 0.0;
+  for (const HeldOutRun& run : runs) sum += run.mae;
+  std::string text = fmt::format("\n| {} | mean error | rms | fit |\n|---|---|---|---|\n", heading);
+  for (const HeldOutRun& run : runs)
+    text += fmt::format("| {} | {} | {} | {:.1f} % |\n", run.file, quantity(run.mae, unit),
+                        quantity(run.rmse, unit), run.fit);
+  return text + fmt::format("\nMean over these {}: {}; the worst is {}.\n", runs.size(),
+                            quantity(sum / static_cast<double>(runs.size()), unit), runs.front().file);
+}
+
+/// The model of fitted.yaml, whose numbers are those of the closed loop.
+std::string loop_fit_text(const DiagnosisResult& r) {
+  if (!r.diagnosis.loop) return "";
+  const LoopFit& fit = *r.diagnosis.loop;
+  const std::string unit = r.coordinates.position_unit();
+  std::string text = fmt::format(
+      "\n## Fitted in the loop\n\nfitted.yaml has the numbers with which the whole loop follows the "
+      "recordings "
+      "best, goal in, position out: {} off in the mean over what was fitted, {} before.{}\n\n| number | "
+      "value "
+      "|\n|---|---|\n",
+      quantity(fit.mae_after, unit), quantity(fit.mae_before, unit),
+      fit.added.empty() ? "" : fmt::format(" It asked for {}.", fmt::join(fit.added, ", ")));
+  for (const LoopNumber& n : fit.numbers) text += fmt::format("| {} | {:.4g} {} |\n", n.key, n.value, n.unit);
+  return text + loop_runs_table("held out", r.diagnosis.held_out_runs, unit) +
+         loop_runs_table("fitted", fit.fitted_runs, unit);
+}
+
 std::string parameters_of(const RankedEffect& e, Coordinates coordinates) {
   std::vector<std::string> parts;
   for (const NamedValue& p : e.parameters) {
@@ -292,8 +325,8 @@ std::string experiment_table(const DiagnosisResult& r) {
 std::string diagnosis_text(const DiagnosisResult& r) {
   return fmt::format("\n## What the simulation lacks\n\n**{}**\n", r.diagnosis.sentence) +
          simulator_table(r) + added_table(r) + refitted_table(r) + budget_table(r) + measures_table(r) +
-         closed_loop_table(r) + ranking_table(r) + steps_table(r) + periodic_table(r) + blame_table(r) +
-         law_table(r) + detectable_table(r) + experiment_table(r) +
+         closed_loop_table(r) + loop_fit_text(r) + ranking_table(r) + steps_table(r) + periodic_table(r) +
+         blame_table(r) + law_table(r) + detectable_table(r) + experiment_table(r) +
          "\n`fitted.yaml` holds the model as fitted; `gapscope simulate fitted.yaml -o FILE` runs it.\n";
 }
 

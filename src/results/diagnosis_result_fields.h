@@ -164,6 +164,22 @@ void fields(Archive& archive, ClosedLoopRun& r) {
 }
 
 template <class Archive>
+void fields(Archive& archive, LoopNumber& n) {
+  archive("parameter", n.key);
+  archive("unit", n.unit);
+  archive("value", n.value);
+}
+
+template <class Archive>
+void fields(Archive& archive, LoopFit& f) {
+  archive("mae_before_rad", f.mae_before);
+  archive("mae_after_rad", f.mae_after);
+  archive("added", f.added);
+  archive.list("numbers", f.numbers);
+  archive.list("fitted_runs", f.fitted_runs);
+}
+
+template <class Archive>
 void fields(Archive& archive, ClosedLoop& c) {
   archive("before_rad", c.before);
   archive("after_rad", c.after);
@@ -303,6 +319,7 @@ void fields(Archive& archive, DiagnosisDocument& d) {
   archive("sentence", g.sentence);
   archive.list("measures", g.measures);
   archive.seldom("closed_loop", g.closed_loop);
+  archive.seldom("closed_loop_fit", g.loop);
   archive.named("blame", g.blame, &BlameShift::key);
   archive.added_list("refitted", g.refitted);
   archive.seldom("held_numbers", g.held);

@@ -17,14 +17,18 @@
 namespace gapscope {
 namespace {
 
-/// The file's own name; where two files share it, the path as it was given, without separators.
+/// The file's own name; where two files share it, the path as it was given, without separators, and where a
+/// file comes twice, with the window.
 std::string name_of(const RecordedFile& file, const std::vector<RecordedFile>& all) {
   const auto own = [](const RecordedFile& f) { return std::filesystem::path(f.path).filename().string(); };
   const auto same = std::count_if(all.begin(), all.end(), [&](const auto& f) { return own(f) == own(file); });
   if (same == 1) return own(file);
   std::string name = file.given;
   std::replace(name.begin(), name.end(), '/', '_');
-  return name;
+  const bool again =
+      std::count_if(all.begin(), all.end(), [&](const auto& f) { return f.path == file.path; }) > 1;
+  return again && file.window ? fmt::format("{} {}..{} s", name, file.window->first, file.window->second)
+                              : name;
 }
 
 /// The sheet knows better than the samples, but a large difference is worth a word.
@@ -127,6 +131,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
     progress("reading " + file.given);
     Recording r = read_one(file, c, uneven);
     r.file = name_of(file, files);
+    r.load = file.load;
     apply_sheet(r, c, loaded.warnings);
     note_time(r, c.recording->reading.lost_rows, loaded.notes);
     note_mended(r, c.coordinates, loaded.notes);

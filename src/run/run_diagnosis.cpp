@@ -15,11 +15,13 @@
 #include "gapscope/inspection/reach.h"
 #include "gapscope/telling/card.h"
 #include "run/checked.h"
+#include "run/closed_loop.h"
 #include "run/doubtful_delay.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/read_gap.h"
 #include "run/run_simulator.h"
+#include "run/settle_rate.h"
 #include "run/simulated_words.h"
 
 namespace gapscope {
@@ -116,28 +118,41 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   DiagnosisOptions asked = options;
   asked.controller = recordings.controller;
   if (!asked.fit.gap_seed) asked.fit.gap_seed = internal::run::read_gap(c, recordings);
-  Diagnosis d = diagnose(recordings.train.motor_traces(), recordings.held_out.motor_traces(),
-                         internal::run::diagnosed_model(c, recordings.sought), asked);
+  const std::optional<LoopFit> loop = internal::run::fitted_loop(c, recordings, options);
+  std::vector<Recording> train = internal::run::switched_on(recordings.train.recordings),
+                         held_out = internal::run::switched_on(recordings.held_out.recordings);
+  std::optional<ControllerModel> sought = recordings.sought;
+  if (loop && internal::run::has_another_law(*loop)) {
+    asked.controller = loop->controller, sought.reset();
+    internal::run::command_anew(loop->controller, train);
+    internal::run::command_anew(loop->controller, held_out);
+  }
+  Diagnosis d = diagnose(internal::run::traces_of(train), internal::run::traces_of(held_out),
+                         internal::run::diagnosed_model(c, sought), asked);
   put_into_words(d, c.coordinates);
+  d.controller = d.fitted.controller ? d.fitted.controller->at_start() : asked.controller;
+  internal::run::tell_closed_loop(recordings, loop, d);
   if (finish_requested()) {
     d.fitted.controller.reset();
     return d;
   }
-  d.controller = d.fitted.controller ? d.fitted.controller->at_start() : recordings.controller;
   const std::string found = internal::run::controller_found(c, d, recordings.train.recordings);
   if (!found.empty()) d.warnings.push_back(found);
   d.fitted.controller.reset();
   return d;
 }
 
-DiagnosisOutcome run_diagnosis(const Configuration& c, const DiagnosisOptions& options,
+DiagnosisOutcome run_diagnosis(const Configuration& given, const DiagnosisOptions& options,
                                const Progress& told_before) {
+  std::vector<std::string> rate;
+  const Configuration c = internal::run::with_settled_rate(given, options.progress, rate);
   const std::vector<FileHash> sources = sources_of(c);
   DiagnosisRecordings recordings = load_for_diagnosis(c, options.progress);
   const internal::run::SimulatedRecordings simulated =
       internal::run::load_simulated(c, recordings, options.progress);
   require_unchanged(c, sources);
   std::vector<std::string> warnings = std::move(recordings.train.warnings);
+  warnings.insert(warnings.begin(), rate.begin(), rate.end());
   bool swapped = false;
   if (std::string order = other_way_round(c, recordings); !order.empty()) {
     told_before(order);

@@ -18,6 +18,7 @@
 #include "run/checked.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
+#include "run/settle_rate.h"
 #include "run/simulated_words.h"
 
 namespace gapscope {
@@ -224,10 +225,12 @@ void limit_by(const std::vector<Doubt>& doubts, FitSummary& fit) {
 
 }  // namespace
 
-RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const Progress& progress,
+RunOutcome run_pipeline(const Configuration& given, const Estimators& wanted, const Progress& progress,
                         int threads) {
-  if (wanted.reference) require_reference_model(c);
+  if (wanted.reference) require_reference_model(given);
   RunOutcome out;
+  std::vector<std::string> rate;
+  const Configuration c = wanted.reference ? internal::run::with_settled_rate(given, progress, rate) : given;
   RunResult& r = out.result;
   r.name = c.name;
   r.version = version();
@@ -244,6 +247,7 @@ RunOutcome run_pipeline(const Configuration& c, const Estimators& wanted, const 
   for (const Recording& grid : grids.recordings)
     r.notes.push_back(grid.file + ": for the detector alone " + grid.resampling);
   out.warnings = std::move(loaded.warnings);
+  append(out.warnings, rate);
   internal::run::Checked checked;
   if (c.recording) {
     const Purpose purpose = wanted.reference ? Purpose::kAll : Purpose::kGap;

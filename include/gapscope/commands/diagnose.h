@@ -27,8 +27,9 @@ std::vector<TextFile> diagnosis_texts(const Configuration& configuration, const 
 
 /// Writes the whole report and commits it. An estimate that is there and goes with it stays; one that does
 /// not is dropped, which is one more warning of the diagnosis.
+/// @param more  files that go with it
 /// @throws ConfigError, Interrupted, std::runtime_error for what cannot be written
 void write_diagnosis(ReportFolder& report, const Configuration& configuration, const FigureFormats& figures,
-                     DiagnosisOutcome& outcome);
+                     DiagnosisOutcome& outcome, const std::vector<TextFile>& more = {});
 
 }  // namespace gapscope

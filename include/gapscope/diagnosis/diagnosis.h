@@ -236,7 +236,6 @@ struct Diagnosis {
 
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
   NextExperiment next_experiment;                  ///< that would; left to the caller, as it takes time
-  std::vector<HeldOutRun> held_out_runs;           ///< each held-out recording
   std::optional<LoopFit> loop;                     ///< the model that these are of, under its controller
   std::optional<ClosedLoop> closed_loop;           ///< where a controller is at work that is known
   std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added

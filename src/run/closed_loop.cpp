@@ -1,0 +1,137 @@
+#include "run/closed_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gapscope/base/cut_short.h"
+#include "run/fitted_command.h"
+
+namespace gapscope::internal::run {
+namespace {
+
+/// The first row of a recording while it was off, and the first one after that.
+std::pair<std::size_t, std::size_t> off_rows(const Recording& r) {
+  std::size_t from = r.size(), to = r.size();
+  for (std::size_t i = r.size(); i-- > 0;)
+    if (r.command->is_off(r.command->t[r.command_first + i])) {
+      if (to == r.size()) to = i + 1;
+      from = i;
+    }
+  return {from, std::max(from, to)};
+}
+
+bool has_loop(const std::vector<Recording>& recordings) {
+  return !recordings.empty() && std::all_of(recordings.begin(), recordings.end(),
+                                            [](const Recording& r) { return r.command != nullptr; });
+}
+
+bool is_sought(const Configuration& c, int number) {
+  return c.controller && c.controller->numbers[static_cast<std::size_t>(number)].estimate;
+}
+
+constexpr double kWorthAnotherLaw = 0.8;  ///< of the loop's error, at most, that another law leaves
+constexpr std::size_t kLooked = 4;        ///< recordings that the numbers begin with
+constexpr int kSteps = 15;                ///< of that fit
+
+/// The model with numbers to begin with; nothing where it cannot be fitted.
+std::optional<ReferenceModel> quick_fit(const Configuration& c, const std::vector<Recording>& train,
+                                        const DriveController& controller) {
+  const std::size_t every = std::max<std::size_t>(1, train.size() / kLooked);
+  std::vector<Recording> few;
+  for (std::size_t r = 0; r < train.size(); r += every) few.push_back(train[r]);
+  few = switched_on(few);
+  command_anew(controller, few);
+  ReferenceModel model = c.reference_model();
+  model.controller.reset();
+  FitOptions options = c.fit;
+  options.starts = 1, options.max_iterations = kSteps;
+  options.compare_parts = options.search_halves = options.profile = false;
+  const FitSummary found = fit(traces_of(few), model, options);
+  if (found.status == FitStatus::kFailed) return {};
+  const auto take = [&](ParameterSetting& p, const std::string& key) {
+    const FittedParameter* fitted = found.find(key);
+    if (fitted != nullptr && std::isfinite(fitted->value)) p.value = fitted->value;
+  };
+  for (int i = 0; i < kDriveParameterCount; ++i)
+    take(model.parameters[static_cast<std::size_t>(i)], kDriveParameters[i].key);
+  for (ModelEffect& effect : model.effects)
+    for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
+      take(effect.parameters[i], std::string(effect.entry->name) + "." + effect.entry->parameters[i].key);
+  return model;
+}
+
+double fit_percent_of(double rmse, const MotorTrace& t) {
+  const double centre = mean(t.x1);
+  double moved = 0.0;
+  for (const double x : t.x1) moved += (x - centre) * (x - centre);
+  return moved > 0.0 ? 100.0 * (1.0 - rmse / std::sqrt(moved / static_cast<double>(t.size()))) : kNaN;
+}
+
+}  // namespace
+
+std::vector<Recording> switched_on(const std::vector<Recording>& recordings) {
+  std::vector<Recording> on;
+  for (const Recording& r : recordings) {
+    if (r.command == nullptr || !(r.command->off_from < kInfinity)) {
+      on.push_back(r);
+      continue;
+    }
+    const auto [from, to] = off_rows(r);
+    const bool before = from >= r.size() - to;
+    const std::size_t first = before ? 0 : to, count = before ? from : r.size() - to;
+    on.push_back(count >= kFewestSamples ? part(r, first, count) : r);
+  }
+  return on;
+}
+
+std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings) {
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : recordings) traces.push_back(r.motor_trace());
+  return traces;
+}
+
+std::optional<LoopFit> fitted_loop(const Configuration& c, const DiagnosisRecordings& recordings,
+                                   const DiagnosisOptions& options) {
+  const std::vector<Recording>& train = recordings.train.recordings;
+  const auto known = recordings.sought ? std::optional(recordings.sought->at_start()) : recordings.controller;
+  if (!known || !has_loop(train) || known->kind == ControllerKind::kVelocity) return {};
+  const std::optional<ReferenceModel> model = quick_fit(c, train, *known);
+  if (!model || model->structure.has_load) return {};
+  LoopFitOptions asked;
+  asked.progress = options.progress, asked.threads = options.threads;
+  asked.gain_is_sought = is_sought(c, controller_place::kGain);
+  asked.delay_is_sought = is_sought(c, controller_place::kDelay) || !(known->delay > 0.0);
+  asked.goal_delay_is_sought = !(known->goal_delay > 0.0F);
+  asked.saturation_is_sought = !(known->saturation < kInfinity);
+  asked.fall_is_sought = !(known->falls_at < kInfinity);
+  asked.off_damping_is_sought = std::isnan(known->off_damping);
+  return unless_finishing([&] { return fit_in_loop(traces_of(train), *model, *known, asked); })
+      .value_or(std::nullopt);
+}
+
+bool has_another_law(const LoopFit& loop) {
+  return loop.mae_after < kWorthAnotherLaw * loop.mae_before &&
+         std::any_of(loop.added.begin(), loop.added.end(), [](const std::string& key) {
+           return key.starts_with("controller.") && key != "controller.off_damping";
+         });
+}
+
+void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
+                      Diagnosis& d) {
+  if (!loop || !d.controller) return;
+  double sum = 0.0;
+  const std::vector<MotorTrace> train = traces_of(recordings.train.recordings);
+  for (const MotorTrace& trace : train) sum += run_in_loop(trace, d.fitted, *d.controller).mae;
+  const bool is_nearer = !(sum <= loop->mae_after * static_cast<double>(train.size()));
+  if (is_nearer) d.loop = loop;
+  d.held_out_runs.clear();
+  for (const MotorTrace& trace : traces_of(recordings.held_out.recordings)) {
+    d.held_out_runs.push_back(is_nearer ? run_in_loop(trace, loop->model, loop->controller)
+                                        : run_in_loop(trace, d.fitted, *d.controller));
+    if (!d.closed_loop) continue;
+    for (const ClosedLoopRun& run : d.closed_loop->recordings)
+      if (run.file == trace.file) d.held_out_runs.back().nominal_fit = fit_percent_of(run.before, trace);
+  }
+}
+
+}  // namespace gapscope::internal::run

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gapscope/run/run_diagnosis.h"
+
+namespace gapscope::internal::run {
+
+/// The longest part of each recording in which its controller was at work; of others the whole.
+std::vector<Recording> switched_on(const std::vector<Recording>& recordings);
+
+std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings);
+
+/// The drive in its loop, where its controller made the inputs; else nothing.
+std::optional<LoopFit> fitted_loop(const Configuration& configuration, const DiagnosisRecordings& recordings,
+                                   const DiagnosisOptions& options);
+
+/// Whether its controller has a law beside the declared one that explains much of the loop's error: what it
+/// makes of the targets is another input.
+bool has_another_law(const LoopFit& loop);
+
+/// Gives the diagnosis the held-out recordings beside the drive in its loop, or, where the model that the
+/// diagnosis has come to follows the fitted ones as well, beside that.
+void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
+                      Diagnosis& diagnosis);
+
+}  // namespace gapscope::internal::run
