@@ -96,6 +96,7 @@ struct RecordingArguments {
   std::string target;          ///< empty: none; else the input is what the controller makes of it
   std::string gain;            ///< of that controller: a number, or estimate
   DriveController controller;  ///< its other numbers
+  std::optional<DriveController> of_model;  ///< where no gain is given: that of a simulator's model
   DeclaredUnits units;
   RegisterForms registers;
   GearRatios gear;

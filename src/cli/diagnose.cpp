@@ -12,6 +12,7 @@
 #include "gapscope/base/text.h"
 #include "gapscope/commands/axis.h"
 #include "gapscope/commands/drive_folder.h"
+#include "gapscope/commands/leave_one_out.h"
 
 namespace gapscope::cli {
 namespace {
@@ -22,6 +23,7 @@ struct DiagnoseArguments {
   std::string axis;  ///< of a machine with several; empty: the configuration has one
   std::vector<std::string> excluded;
   std::vector<std::string> simulated;
+  std::string left_out;  ///< what one after the other is left out; empty: nothing is
   int threads = 0;
   bool quiet = false;
   FigureFormats figures;
@@ -31,6 +33,24 @@ struct DiagnoseArguments {
 std::vector<std::string> without(std::vector<std::string> warnings, const std::vector<std::string>& told) {
   std::erase_if(warnings, [&](const std::string& w) { return contains(told, w); });
   return warnings;
+}
+
+/// Each group held out once, by the model that is fitted to all others; then the one that is fitted to all.
+std::vector<LeftOutAnswer> leave_one_out(const DiagnoseArguments& a, Configuration& c,
+                                         const DiagnosisOptions& options) {
+  std::vector<LeftOutAnswer> answers;
+  if (a.left_out.empty()) return answers;
+  const std::vector<LeftOut> groups = groups_to_leave_out(c, a.left_out);
+  for (const LeftOut& group : groups) {
+    DiagnosisOptions one = options;
+    const std::string which =
+        fmt::format("{} of {}, without {}: ", answers.size() + 1, groups.size(), group.told);
+    one.progress = [&](const std::string& step) { options.progress(which + step); };
+    answers.push_back(answer_of(group, run_diagnosis(leaving_out(c, group), one)));
+    if (finish_requested()) return answers;
+  }
+  c = of_all_recordings(std::move(c));
+  return answers;
 }
 
 void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
@@ -50,12 +70,19 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
     told.push_back(warning);
   };
   const FinishFirst first;  // a first Ctrl-C leaves a report of what was found, also where it is being drawn
+  const std::vector<LeftOutAnswer> left_out = leave_one_out(a, c, options);
   DiagnosisOutcome outcome = run_diagnosis(c, options, tell);
   DiagnosisResult& result = outcome.result;
   options.progress("drawing the report");
-  write_diagnosis(report, c, a.figures, outcome);
+  std::vector<TextFile> more;
+  if (!left_out.empty()) more.push_back({"leave_one_out.csv", csv_of(left_out)});
+  write_diagnosis(report, c, a.figures, outcome, more);
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
+  if (!left_out.empty()) {
+    fmt::print("{}", table_of(left_out));
+    say("recommended", recommended(left_out));
+  }
   print_diagnosis(folder, result, a.config.told(a.folder, a.axis));
   if (finish_requested()) throw ExitStatus{kInterruptedWithReport};
 }
@@ -81,6 +108,12 @@ void add_diagnose(CommandLine& app) {
                   "CSV with what your simulator answers to the recorded input; one for each recording")
       .value("SIM.csv")
       .one_value_each();
+  command
+      .add_option(
+          "--leave-one-out", arguments->left_out,
+          "recording, mass, arm, gain or voltage: all recordings, or all with one value, are held out in "
+          "turn; DIR then has the model fitted to all and leave_one_out.csv")
+      .value("KEY");
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   add_work_options(command, arguments->threads, arguments->quiet);
   command.footer(

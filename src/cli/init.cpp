@@ -143,10 +143,18 @@ std::string named_after(const std::string& axis, std::string yaml) {
   return yaml.insert(end, "_" + plain_part(axis));
 }
 
-void write_starter(const InitArguments& a, const RecordingArguments& r, bool several) {
+/// The recording under the servo of the simulator's model, where nothing else is given.
+RecordingArguments under_servo(RecordingArguments r, const std::optional<JointNumbers>& nominal) {
+  if (nominal && nominal->servo && r.gain.empty() && !r.target.empty()) r.of_model = nominal->servo;
+  return r;
+}
+
+void write_starter(const InitArguments& a, const RecordingArguments& recording, bool several) {
   const std::string name = fs::path(a.output).stem().string();  // a name that was given is the report's, too
+  const std::optional<JointNumbers> nominal = nominal_of(a);
+  const RecordingArguments r = under_servo(recording, nominal);
   const StarterKnowledge known{model_of(a.model),
-                               nominal_of(a),
+                               nominal,
                                anchor_of(a),
                                a.torque_constant,
                                a.torque_constant > 0.0 ? a.inertia : kNaN,

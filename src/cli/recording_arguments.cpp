@@ -29,6 +29,7 @@ std::optional<DriveController> RecordingArguments::commanding() const {
     throw ConfigError(
         "gapscope: --controller-gain stands without --target, expected the column of the commanded position "
         "beside it");
+  if (gain.empty() && of_model) return of_model;
   if (gain.empty())
     throw ConfigError(
         "gapscope: --target stands without --controller-gain, expected the gain of the servo's position "
