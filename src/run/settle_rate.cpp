@@ -9,10 +9,10 @@
 namespace gapscope::internal::run {
 namespace {
 
-constexpr std::size_t kLooked = 3;       ///< recordings that are looked at
-constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop, which logs are slower than [Hz]
-constexpr double kPrefers = 0.02;        ///< of the motion's error, that the other rate leaves more
-constexpr int kSteps = 20;               ///< of each fit
+constexpr std::size_t kLookedForRate = 3;  ///< recordings that are looked at
+constexpr double kBetweenRows = 1000.0;    ///< rate of a firmware's own loop, which logs are slower than [Hz]
+constexpr double kPrefers = 0.02;          ///< of the motion's error, that the other rate leaves more
+constexpr int kStepsForRate = 20;          ///< of each fit
 
 /// What the model leaves of the motion, one step ahead, with this rate [rad]; NaN: it cannot be fitted.
 double left_with(double rate, const Configuration& c, std::vector<Recording> recordings) {
@@ -22,7 +22,7 @@ double left_with(double rate, const Configuration& c, std::vector<Recording> rec
   ReferenceModel model = c.reference_model();
   if (model.controller) model.controller = controller;
   FitOptions options = c.fit;
-  options.starts = 1, options.max_iterations = kSteps;
+  options.starts = 1, options.max_iterations = kStepsForRate;
   options.compare_parts = options.search_halves = options.profile = false;
   std::vector<MotorTrace> traces;
   for (const Recording& r : recordings) traces.push_back(r.motor_trace());
@@ -40,7 +40,7 @@ Configuration with_settled_rate(const Configuration& given, const Progress& prog
   if (c.recording->reading.columns.reads_input()) return c;
   require_reference_model(c);
   Configuration first = c;
-  first.recording->files.resize(std::min(kLooked, first.recording->files.size()));
+  first.recording->files.resize(std::min(kLookedForRate, first.recording->files.size()));
   progress("looking when the controller acts");
   const LoadedRecordings loaded = load_recordings(first, UnevenRows::kStamped, [](const std::string&) {});
   const double rows = left_with(0.0, c, loaded.recordings),
