@@ -78,12 +78,6 @@ std::vector<reference::ParameterId> numbers_of(const std::vector<bool>& effects,
   return numbers;
 }
 
-PlantModel<double> without(PlantModel<double> plant, const std::vector<bool>& effects) {
-  for (std::size_t e = effects.size(); e-- > 0;)
-    if (effects[e]) plant.effects.erase(plant.effects.begin() + static_cast<std::ptrdiff_t>(e));
-  return plant;
-}
-
 /// Errors of the numbers after a fit for runs, in which what they moved by counts as one more; and those that
 /// moved out of their interval.
 void tell_moved(const reference::ModelFit& fit, const reference::FitPoint& from, const ReferenceModel& was,
@@ -108,15 +102,12 @@ FittedModel fitted_for_runs(const Study& study, const FittedModel& model) {
                          return t.command != nullptr;
                        });
   const std::vector<bool> fine = fine_lines_of(study, model.model);
-  const auto kinds = [&](const reference::ModelRun& run,
-                         reference::ErrorsFor use) -> std::vector<std::vector<double>> {
+  const auto kinds = [&](const reference::ModelRun& run) -> std::vector<std::vector<double>> {
     Missed missed;
-    const PlantModel<double> plant =
-        use == reference::ErrorsFor::kSlope ? without(run.plant, fine) : run.plant;
     for (std::size_t r = 0; r < study.train.size(); ++r) {
       const MotorTrace& trace = study.train[r];
-      if (!follow(plant, run.starts[r], trace, !in_loop, missed)) return {};
-      if (in_loop && !follow_in_loop(plant, run.starts[r], trace, *study.options.controller, missed))
+      if (!follow(run.plant, run.starts[r], trace, !in_loop, missed)) return {};
+      if (in_loop && !follow_in_loop(run.plant, run.starts[r], trace, *study.options.controller, missed))
         return {};
     }
     std::vector<std::vector<double>> all(1, std::move(missed.torque));

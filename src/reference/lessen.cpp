@@ -48,9 +48,7 @@ class Lessening {
  private:
   using Errors = std::vector<std::vector<double>>;
 
-  Errors errors_at(const FitPoint& point, ErrorsFor use = ErrorsFor::kValue) const {
-    return kinds_(fit_.run_at(point), use);
-  }
+  Errors errors_at(const FitPoint& point) const { return kinds_(fit_.run_at(point)); }
 
   static double mean_square(const std::vector<double>& e) {
     return Eigen::Map<const Vector>(e.data(), std::ssize(e)).squaredNorm() / static_cast<double>(e.size());
@@ -69,11 +67,11 @@ class Lessening {
   }
 
   bool differentiate() {
-    std::vector<Errors> beside(places_.size() + 1);  // the last one at the point itself
+    std::vector<Errors> beside(places_.size());
     parallel_for(beside.size(), threads_, [&](std::size_t k) {
       FitPoint point = at_;
-      if (k < places_.size()) point.q[places_[k]] += step_at(k);
-      beside[k] = errors_at(point, ErrorsFor::kSlope);
+      point.q[places_[k]] += step_at(k);
+      beside[k] = errors_at(point);
     });
     for (const Errors& errors : beside)
       if (errors.size() != errors_.size()) return false;
@@ -82,11 +80,10 @@ class Lessening {
     for (std::size_t b = 0; b < errors_.size(); ++b) {
       const auto size = std::ssize(errors_[b]);
       const Eigen::Map<const Vector> here(errors_[b].data(), size);
-      const Eigen::Map<const Vector> same(beside.back()[b].data(), size);
       Eigen::MatrixXd columns(size, n);
       for (Eigen::Index k = 0; k < n; ++k) {
         const auto place = static_cast<std::size_t>(k);
-        columns.col(k) = (Eigen::Map<const Vector>(beside[place][b].data(), size) - same) / step_at(place);
+        columns.col(k) = (Eigen::Map<const Vector>(beside[place][b].data(), size) - here) / step_at(place);
       }
       const double weight = 1.0 / here.squaredNorm();
       normal_.noalias() += weight * (columns.transpose() * columns);

@@ -108,9 +108,7 @@ struct ModelRun {
 using WeightedSum = std::vector<std::pair<ParameterId, double>>;
 
 /// What a model leaves of several things, one vector for each, in any unit; none at all: its motion diverges.
-/// For their slopes a caller may leave out what costs much and hardly changes these.
-enum class ErrorsFor { kValue, kSlope };
-using ErrorKinds = std::function<std::vector<std::vector<double>>(const ModelRun&, ErrorsFor)>;
+using ErrorKinds = std::function<std::vector<std::vector<double>>(const ModelRun&)>;
 
 /// What a fit knows of its free numbers.
 struct StandardErrors {
