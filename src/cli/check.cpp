@@ -166,8 +166,7 @@ void add_check(CommandLine& app) {
   auto arguments = std::make_shared<CheckArguments>();
   CommandLine command = app.add_command("check", "What a recording is worth: look before you estimate");
   add_recording_arguments(command, arguments->recording);
-  command.add_option("MORE", arguments->further, "further recordings of the drive, read alike")
-      .values(0);
+  command.add_option("MORE", arguments->further, "further recordings of the drive, read alike").values(0);
   command
       .add_option("--for", arguments->purpose,
                   "question that it is judged for: gap, fit or diagnosis (default: all of them)")

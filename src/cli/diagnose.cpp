@@ -46,7 +46,7 @@ std::vector<LeftOutAnswer> leave_one_out(const DiagnoseArguments& a, Configurati
     const std::string which =
         fmt::format("{} of {}, without {}: ", answers.size() + 1, groups.size(), group.told);
     one.progress = [&](const std::string& step) { options.progress(which + step); };
-    answers.push_back(answer_of(group, run_diagnosis(leaving_out(c, group), one)));
+    answers.push_back(left_out_answer(group, run_diagnosis(leaving_out(c, group), one)));
     if (finish_requested()) return answers;
   }
   c = of_all_recordings(std::move(c));
@@ -80,7 +80,7 @@ void diagnose_configuration(const DiagnoseArguments& a, Configuration& c) {
   print_warnings(without(result.diagnosis.warnings, told));
   if (result.simulated) print_warnings(result.simulated->warnings);
   if (!left_out.empty()) {
-    fmt::print("{}", table_of(left_out));
+    fmt::print("{}", left_out_table(left_out));
     say("recommended", recommended(left_out));
   }
   print_diagnosis(folder, result, a.config.told(a.folder, a.axis));

@@ -113,7 +113,7 @@ Configuration of_all_recordings(Configuration c) {
   return c;
 }
 
-LeftOutAnswer answer_of(const LeftOut& left_out, const DiagnosisOutcome& outcome) {
+LeftOutAnswer left_out_answer(const LeftOut& left_out, const DiagnosisOutcome& outcome) {
   const Diagnosis& d = outcome.result.diagnosis;
   LeftOutAnswer a{left_out, to_string(d.verdict), found_in(d), d.mismatch.before, d.mismatch.after};
   double sum = 0.0;
@@ -125,7 +125,7 @@ LeftOutAnswer answer_of(const LeftOut& left_out, const DiagnosisOutcome& outcome
   return a;
 }
 
-std::string table_of(const std::vector<LeftOutAnswer>& answers) {
+std::string left_out_table(const std::vector<LeftOutAnswer>& answers) {
   std::size_t wide = 8;
   for (const LeftOutAnswer& a : answers) wide = std::max(wide, a.left_out.told.size());
   std::string table = fmt::format("{:<{}}  {:>12}  {:>12}  {:<8} {}\n", "left out", wide, "error (mrad)",

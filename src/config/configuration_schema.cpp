@@ -127,12 +127,14 @@ Json recording_schema() {
   resample.add("for",
                words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
   resample.required = {"rate"};
-  recording.add("file", files_schema("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
-                                     "several are never concatenated"));
-  recording.add("held_out", files_schema("only diagnose reads it; other files than file"));
-  recording.add("simulated",
-                files_schema("what a simulator of yours answers to the same input: one for each file, or for "
-                             "each file and each held_out; only diagnose reads it"));
+  recording.add("file",
+                recorded_files_schema("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
+                                      "several are never concatenated"));
+  recording.add("held_out", recorded_files_schema("only diagnose reads it; other files than file"));
+  recording.add(
+      "simulated",
+      recorded_files_schema("what a simulator of yours answers to the same input: one for each file, or for "
+                            "each file and each held_out; only diagnose reads it"));
   recording.add(
       "columns",
       columns.schema("names of the columns (of another file than a CSV: its arrays), or their places from 1 "

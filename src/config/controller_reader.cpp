@@ -159,8 +159,7 @@ ControllerModel read_laws(const Value& controller) {
   if (const auto profile = section.find("profile"))
     read_fixed(Section(*profile, names_of(kProfile)), kProfile, model.fixed);
   read_fixed(section, kBesideLaws, model.fixed);
-  if (const auto delay = section.find(kGoalDelayKey))
-    model.fixed.goal_delay = static_cast<float>(delay->number(kGoalDelay));
+  if (const auto delay = section.find(kGoalDelayKey)) model.fixed.goal_delay = delay->number(kGoalDelay);
   const auto position = section.find("position"), velocity = section.find("velocity");
   if (!position && !velocity)
     section.require("position", "position: {gain: ...}, velocity: {gain: ...} or both, a cascade");
@@ -296,7 +295,7 @@ void write_controller(YamlWriter& out, const ControllerModel& model, const std::
     out.close();
   }
   write_fixed(out, kBesideLaws, fixed);
-  if (fixed.goal_delay > 0.0F)
+  if (fixed.goal_delay > 0.0)
     out.quantity(kGoalDelayKey, yaml_number(std::stod(fmt::format("{}", fixed.goal_delay))), kGoalDelay.unit);
   if (model.rate_sought) out.entry("rate", kAuto);
   if (kind != ControllerKind::kVelocity)

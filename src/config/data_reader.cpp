@@ -41,7 +41,8 @@ ReadOptions RecordingConfig::reading_of(const RecordedFile& file, UnevenRows une
 }
 
 bool RecordingConfig::is_supplied() const {
-  return !reading.columns.voltage.empty() || !std::isnan(files.front().voltage);
+  return !reading.columns.voltage.empty() ||
+         std::ranges::any_of(files, [](const RecordedFile& file) { return !std::isnan(file.voltage); });
 }
 
 namespace {

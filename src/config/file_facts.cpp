@@ -193,7 +193,7 @@ void write_files(YamlWriter& out, const char* key, std::span<const RecordedFile>
   out.entry(key, fmt::format("[{}]", fmt::join(list, ", ")));
 }
 
-Json files_schema(const std::string& doc) {
+Json recorded_files_schema(const std::string& doc) {
   MapSchema known;
   known.add("file", text_schema("its name"));
   known.add("name", text_schema("the same"));

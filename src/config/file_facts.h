@@ -31,6 +31,6 @@ void settle_loads(Configuration& configuration);
 
 void write_files(YamlWriter& out, const char* key, std::span<const RecordedFile> files);
 
-Json files_schema(const std::string& doc);
+Json recorded_files_schema(const std::string& doc);
 
 }  // namespace gapscope::internal::config

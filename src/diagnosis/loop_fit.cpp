@@ -182,6 +182,7 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
         if (error < best_error) best = next, best_error = error, which = a, helps = true;
       }
     if (!helps) break;
+    if (left[which].of_law) fit.left_by_law *= best_error / least;
     loop = best, least = best_error;
     fit.added.push_back(left[which].key);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));

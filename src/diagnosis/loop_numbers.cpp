@@ -132,7 +132,7 @@ double LoopPlace::value(const Loop& loop) const {
 
 void LoopPlace::set(double value, Loop& loop) const {
   if (is_goal_delay_)
-    loop.controller.goal_delay = static_cast<float>(value);
+    loop.controller.goal_delay = value;
   else if (member_ != nullptr)
     loop.controller.*member_ = value;
   else
@@ -168,7 +168,7 @@ std::vector<LoopPlace> places_of(const Loop& loop, const LoopFitOptions& options
   };
   if (options.gain_is_sought && c.kind == ControllerKind::kPosition && c.gain > 0.0)
     add(&DriveController::gain, "controller.position.gain", "unit of u/rad", kMostTimes * c.gain);
-  if (options.goal_delay_is_sought && c.goal_delay > 0.0F) places.emplace_back(1e-4, 0.5);
+  if (options.goal_delay_is_sought && c.goal_delay > 0.0) places.emplace_back(1e-4, 0.5);
   if (options.delay_is_sought && c.delay > 0.0)
     add(&DriveController::delay, "controller.position.delay", "s", 0.3);
   if (c.saturation < kInfinity && options.saturation_is_sought)
@@ -197,9 +197,9 @@ std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTr
         {"controller.position.saturation",
          {0.3 * output / largest_supply(recordings), 0.7 * output / largest_supply(recordings)},
          [](Loop& l, double start) { l.controller.saturation = start; }});
-  if (options.goal_delay_is_sought && !(loop.controller.goal_delay > 0.0F))
+  if (options.goal_delay_is_sought && !(loop.controller.goal_delay > 0.0))
     additions.push_back({"controller.goal_delay_s", {0.5 * dt, 3.0 * dt}, [](Loop& l, double start) {
-                           l.controller.goal_delay = static_cast<float>(start);
+                           l.controller.goal_delay = start;
                          }});
   if (options.delay_is_sought && !(loop.controller.delay > 0.0))
     additions.push_back({"controller.position.delay", {0.3 * dt, 2.0 * dt}, [](Loop& l, double start) {
@@ -254,6 +254,8 @@ std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTr
                            {ParameterSetting::sought(start * first->parameters[0].value), at(1), at(2)});
            l.model.effects.push_back(arm);
          }});
+  for (LoopAddition& a : additions)
+    a.of_law = a.key.starts_with("controller.") && a.key != "controller.off_damping";
   return additions;
 }
 

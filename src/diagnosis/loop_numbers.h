@@ -54,6 +54,7 @@ struct LoopAddition {
   std::string key;
   std::vector<double> starts;
   std::function<void(Loop& loop, double start)> put;
+  bool of_law = false;  ///< of the controller itself, not of the drive
 };
 
 /// Those that the loop does not have.

@@ -101,7 +101,7 @@ std::optional<LoopFit> fitted_loop(const Configuration& c, const DiagnosisRecord
   asked.progress = options.progress, asked.threads = options.threads;
   asked.gain_is_sought = is_sought(c, controller_place::kGain);
   asked.delay_is_sought = is_sought(c, controller_place::kDelay) || !(known->delay > 0.0);
-  asked.goal_delay_is_sought = !(known->goal_delay > 0.0F);
+  asked.goal_delay_is_sought = !(known->goal_delay > 0.0);
   asked.saturation_is_sought = !(known->saturation < kInfinity);
   asked.fall_is_sought = !(known->falls_at < kInfinity);
   asked.off_damping_is_sought = std::isnan(known->off_damping);
@@ -109,12 +109,7 @@ std::optional<LoopFit> fitted_loop(const Configuration& c, const DiagnosisRecord
       .value_or(std::nullopt);
 }
 
-bool has_another_law(const LoopFit& loop) {
-  return loop.mae_after < kWorthAnotherLaw * loop.mae_before &&
-         std::any_of(loop.added.begin(), loop.added.end(), [](const std::string& key) {
-           return key.starts_with("controller.") && key != "controller.off_damping";
-         });
-}
+bool has_another_law(const LoopFit& loop) { return loop.left_by_law < kWorthAnotherLaw; }
 
 void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
                       Diagnosis& d) {

@@ -41,17 +41,18 @@ const std::vector<Damage> kDamages = {
     {"coordinates", kResult, "\"rotation\"", "\"spiral\"",
      "report/result.json:5: coordinates is \"spiral\", expected one of rotation, translation"},
     {"verdict", kResult, "\"verdict\": \"backlash\"", "\"verdict\": \"maybe\"",
-     "report/result.json:48: model_free.verdict is \"maybe\", expected one of backlash, none, inconclusive"},
+     "report/result.json:{line}: model_free.verdict is \"maybe\", expected one of backlash, none, "
+     "inconclusive"},
     {"number_as_text", kResult, "\"scale\": ", "\"scale\": \"1\", \"was\": ",
-     "report/result.json:94: model_free.scale is \"1\", expected a number or null"},
+     "report/result.json:{line}: model_free.scale is \"1\", expected a number or null"},
     {"interval_of_three", kResult, "\"ci95_rad\": [", "\"ci95_rad\": [0, ",
      "report/result.json:8: answer.ci95_rad is [0,0.0"},
     {"warnings_no_list", kResult, "\"warnings\": [", "\"warnings\": 3, \"was\": [",
-     "report/result.json:95: model_free.warnings is 3, expected a list"},
+     "report/result.json:{line}: model_free.warnings is 3, expected a list"},
     {"event_no_object", kResult, "\"events\": [", "\"events\": [7,",
-     "report/result.json:96: model_free.events[0] is 7, expected an object"},
+     "report/result.json:{line}: model_free.events[0] is 7, expected an object"},
     {"event_direction", kResult, "\"direction\": -1,", "\"direction\": 1.5,",
-     "report/result.json:104: model_free.events[0].direction is 1.5, expected a whole number"},
+     "report/result.json:{line}: model_free.events[0].direction is 1.5, expected a whole number"},
     {"missing_key", kResult, "\"message\": ", "\"massage\": ", "report/result.json:"},
     {"truth", kResult, "\"converged\": true", "\"converged\": \"yes\"", "report/result.json:"},
     {"count_beyond_numbers", kResult, "\"samples\": 5000", "\"samples\": 50000000000", "report/result.json:"},
@@ -89,7 +90,10 @@ void expect_refused(Workplace& place, const Damage& damage) {
   const auto outcome = place.run("report report");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, StartsWith(damage.message));
+  std::string message = damage.message;
+  if (const std::size_t line = message.find("{line}"); line != std::string::npos)
+    message.replace(line, 6, std::to_string(1 + std::count(whole.begin(), whole.begin() + at, '\n')));
+  EXPECT_THAT(outcome.err, StartsWith(message));
   EXPECT_THAT(outcome.err, HasSubstr(", expected "));
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_EQ(place.content(), before);

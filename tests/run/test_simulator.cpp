@@ -157,7 +157,7 @@ TEST(Simulator, ThatItsModelMissesByMoreThanItDiffersIsToldNoRow) {
   const SimulatorComparison c = DriveAndSimulator("0.0189", "0.58", detents).compared();
   EXPECT_GT(c.errors.stand_in_miss, c.errors.simulator);
   for (const SimulatorRow& row : c.rows) EXPECT_FALSE(row.differs) << row.name << " by " << row.floors;
-  EXPECT_THAT(c.sentence, HasSubstr("no row is told"));
+  EXPECT_THAT(c.sentence, HasSubstr("no row can be compared"));
   EXPECT_TRUE(std::isnan(c.shrink));
 }
 

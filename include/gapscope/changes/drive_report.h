@@ -7,10 +7,10 @@
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/input_facts.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/telling/answer.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/reference/fit_summary.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "gapscope/telling/answer.h"
 
 namespace gapscope {
 

@@ -36,10 +36,10 @@ Configuration leaving_out(const Configuration& configuration, const LeftOut& lef
 /// The configuration that fits all recordings; the last third of each judges.
 Configuration of_all_recordings(Configuration configuration);
 
-LeftOutAnswer answer_of(const LeftOut& left_out, const DiagnosisOutcome& outcome);
+LeftOutAnswer left_out_answer(const LeftOut& left_out, const DiagnosisOutcome& outcome);
 
 /// A table of text: a line for each group that was left out, and what is recommended, with the reason.
-std::string table_of(const std::vector<LeftOutAnswer>& answers);
+std::string left_out_table(const std::vector<LeftOutAnswer>& answers);
 std::string csv_of(const std::vector<LeftOutAnswer>& answers);
 std::string recommended(const std::vector<LeftOutAnswer>& answers);
 

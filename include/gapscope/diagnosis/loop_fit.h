@@ -26,8 +26,10 @@ struct LoopFit {
   DriveController controller;
   double mae_before = kNaN, mae_after = kNaN;  ///< over the recordings that were fitted [rad]
   std::vector<std::string> added;              ///< keys of what it asked for beyond what it began with
-  std::vector<LoopNumber> numbers;             ///< those that it fitted
-  std::vector<HeldOutRun> fitted_runs;         ///< the recordings that were fitted beside it
+  /// Share of the error that what was added to the law of the controller itself left, when it was added.
+  double left_by_law = 1.0;
+  std::vector<LoopNumber> numbers;      ///< those that it fitted
+  std::vector<HeldOutRun> fitted_runs;  ///< the recordings that were fitted beside it
 };
 
 struct LoopFitOptions {

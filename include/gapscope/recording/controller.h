@@ -30,7 +30,7 @@ enum class ControllerKind {
 template <class T>
 struct ControllerOf {
   ControllerKind kind = ControllerKind::kPosition;
-  float goal_delay = 0.0F;        ///< of the goal alone, from the host to the controller [s]
+  double goal_delay = 0.0;        ///< of the goal alone, from the host to the controller [s]
   T gain{kNaN};                   ///< [input unit/rad]; in a cascade [1/s]
   T derivative{};                 ///< [input unit s/rad]
   T integral{};                   ///< [input unit/(rad s)]
