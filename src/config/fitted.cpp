@@ -6,6 +6,7 @@
 #include "gapscope/config/begun_model.h"
 #include "gapscope/config/configuration.h"
 #include "gapscope/recording/supply.h"
+#include "gapscope/reference/fitted_numbers.h"
 
 namespace gapscope {
 namespace {
@@ -108,20 +109,6 @@ void set_plant(Configuration& c) {
   c.simulation->independent = false;  // the model, whatever made the data
 }
 
-/// The model with the fitted numbers in it.
-ReferenceModel fitted_model(ReferenceModel model, const FitSummary& fit) {
-  const auto take = [&](ParameterSetting& p, const std::string& key) {
-    const FittedParameter* fitted = fit.find(key);
-    if (fitted != nullptr && std::isfinite(fitted->value)) p.value = fitted->value;
-  };
-  for (int i = 0; i < kDriveParameterCount; ++i)
-    take(model.parameters[static_cast<std::size_t>(i)], kDriveParameters[i].key);
-  for (ModelEffect& effect : model.effects)
-    for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
-      take(effect.parameters[i], std::string(effect.entry->name) + "." + effect.entry->parameters[i].key);
-  return model;
-}
-
 }  // namespace
 
 namespace {
@@ -196,7 +183,8 @@ std::string experiment_yaml(const Configuration& given, const ReferenceModel& mo
 std::string fit_yaml(const Configuration& given, const FitSummary& fit, const std::string& trace,
                      const MotorTrace& recording) {
   GAPSCOPE_REQUIRE(!fit.initial_states.empty());
-  Configuration c = with_model(given, with_load_of(recording, fitted_model(given.reference_model(), fit)));
+  Configuration c =
+      with_model(given, with_load_of(recording, with_fitted_numbers(given.reference_model(), fit)));
   if (c.anchor) c.anchor->take(recording.load);
   if (!c.simulation) c.simulation = replay_of(recording, trace);
   if (recording.command != nullptr && given.recording && given.recording->reading.controller)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gapscope/base/cut_short.h"
+#include "gapscope/reference/fitted_numbers.h"
 #include "run/fitted_command.h"
 
 namespace gapscope::internal::run {
@@ -48,16 +49,7 @@ std::optional<ReferenceModel> quick_fit(const Configuration& c, const std::vecto
   options.compare_parts = options.search_halves = options.profile = false;
   const FitSummary found = fit(traces_of(few), model, options);
   if (found.status == FitStatus::kFailed) return {};
-  const auto take = [&](ParameterSetting& p, const std::string& key) {
-    const FittedParameter* fitted = found.find(key);
-    if (fitted != nullptr && std::isfinite(fitted->value)) p.value = fitted->value;
-  };
-  for (int i = 0; i < kDriveParameterCount; ++i)
-    take(model.parameters[static_cast<std::size_t>(i)], kDriveParameters[i].key);
-  for (ModelEffect& effect : model.effects)
-    for (std::size_t i = 0; i < effect.entry->parameters.size(); ++i)
-      take(effect.parameters[i], std::string(effect.entry->name) + "." + effect.entry->parameters[i].key);
-  return model;
+  return with_fitted_numbers(model, found);
 }
 
 double fit_percent_of(double rmse, const MotorTrace& t) {
