@@ -26,15 +26,17 @@ Read read(const std::string& family, std::uint64_t seed) {
 
 /// The motor leaves a bounce, rests within the gap and goes on from there.
 TEST(OtherLaws, ARestBehindTheTurnIsLookedAtAsOneAtTheTurn) {
-  const Read drive = read("hunt_crossley", 20);
+  const Read drive = read("hunt_crossley", 20), at_its_load = read("hunt_crossley", 8);
   EXPECT_FALSE(drive.well() && !drive.holds()) << drive.estimate.brief_report();
+  EXPECT_TRUE(at_its_load.well() && at_its_load.holds()) << at_its_load.estimate.brief_report();
 }
 
 /// At 500 Hz too few samples show how the motor got to its rest; the load had gone on by a quarter of the
 /// gap.
 TEST(OtherLaws, ARestWhoseArrivalIsTooShortToTellIsNoneAtTheLoad) {
-  const Read drive = read("stribeck_load", 24);
+  const Read drive = read("stribeck_load", 24), at_its_load = read("stribeck_load", 3);
   EXPECT_FALSE(drive.well() && !drive.holds()) << drive.estimate.brief_report();
+  EXPECT_TRUE(at_its_load.well() && at_its_load.holds()) << at_its_load.estimate.brief_report();
 }
 
 TEST(OtherLaws, WhatIsRefusedIsBoundWhereMostPassagesEndInAnImpact) {
