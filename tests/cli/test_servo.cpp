@@ -70,18 +70,18 @@ TEST(ServoOfGoals, IsSimulatedUnderItsControllerWhichFittedYamlHas) {
   EXPECT_EQ(place.run("run fitted/fitted.yaml -o again").status, 0);
 }
 
-/// The lines of the README on such a servo, on a real one.
-TEST(ServoOfGoals, TheReadmesLinesRunOnARealOne) {
+/// The lines of "Your own drive" on such a servo, on a real one.
+TEST(ServoOfGoals, TheDocumentedLinesRunOnARealOne) {
   GAPSCOPE_NEEDS_DATA();
   Workplace place;
   for (const auto& [name, motion] : {std::pair{"servo.csv", "sin_time_square_kp400.csv"},
                                      {"servo_other_motion.csv", "up_and_down_kp400.csv"}})
     place.file(name, text_of(testing::data_folder() / "xl330" / motion));
-  const std::string readme = std::regex_replace(
-      text_of(std::filesystem::path(GAPSCOPE_SOURCE_DIR) / "README.md"), std::regex("\\\\\n *"), "");
+  const std::string page =
+      std::regex_replace(text_of(std::filesystem::path(GAPSCOPE_SOURCE_DIR) / "docs/your_own_drive.md"),
+                         std::regex("\\\\\n *"), "");
   std::smatch line;
-  ASSERT_TRUE(std::regex_search(readme, line,
-                                std::regex("build/bin/gapscope (init servo.csv [^#\n]*--target[^#\n]*)")));
+  ASSERT_TRUE(std::regex_search(page, line, std::regex("gapscope (init servo.csv [^#\n]*--target[^#\n]*)")));
   const auto init = place.run(line[1]);
   ASSERT_EQ(init.status, 0) << init.err;
   const auto fit = place.run("fit goal.yaml -o reports/goal");

@@ -47,10 +47,22 @@ TEST(Documents, NameOnlyFilesThatAreThere) {
   }
 }
 
+/// Somebody with a recording reads it in three minutes; what he does not need has a page of its own.
+TEST(Documents, TheReadmeStaysShortAndEveryPageIsInTheIndex) {
+  const std::string readme = text_of(kProject / "README.md"), index = text_of(kProject / "docs/README.md");
+  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 120);
+  for (const auto& entry : fs::directory_iterator(kProject / "docs")) {
+    if (entry.path().extension() != ".md" || entry.path().filename() == "README.md") continue;
+    const std::string link = "](" + entry.path().filename().string() + ")";
+    EXPECT_NE(index.find(link), std::string::npos) << link << " is not in docs/README.md";
+  }
+}
+
 /// Each is shown by a page, with the command that draws it, and is no more than such a page needs.
 TEST(Documents, ShowPicturesThatAreSmallAndSayHowTheyAreDrawn) {
   constexpr std::uintmax_t kMostBytes = 120'000;
-  const std::regex shown(R"rx(!\[[^\]]+\]\((pictures/[\w.]+)\)\n\n\*[^*]*`gapscope report [^`]+ --small`)rx");
+  const std::regex shown(
+      R"rx(!\[[^\]]+\]\((?:docs/)?(pictures/[\w.]+)\)\n\n\*[^*]*`gapscope report [^`]+ --small`)rx");
   std::set<std::string> pictures;
   for (const fs::path& document : documents()) {
     const std::string text = text_of(document);
