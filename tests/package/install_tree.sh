@@ -28,7 +28,7 @@ END
 cat >"$work/everything/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.22)
 project(everything LANGUAGES CXX)
-find_package(gapscope 0.1 REQUIRED)
+find_package(gapscope 0.2 REQUIRED)
 add_executable(everything main.cpp)
 target_link_libraries(everything PRIVATE gapscope::gapscope)
 END
