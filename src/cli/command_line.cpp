@@ -131,8 +131,12 @@ std::optional<double> decimal(const std::string& text) {
 }
 
 CommandLine CommandLine::add_command(const char* name, const char* doc) {
-  return CommandLine(*app_->add_subcommand(name, doc));
+  CLI::App* command = app_->add_subcommand(name, doc);
+  if (!heading_.empty()) command->group(heading_);
+  return CommandLine(*command);
 }
+
+void CommandLine::heading_of_options(const char* heading) { app_->option_defaults()->group(heading); }
 
 Option CommandLine::add_option(const char* names, std::string& value, const char* doc) {
   return not_empty(Option(app_->add_option(names, value, doc)));

@@ -42,6 +42,10 @@ class CommandLine {
  public:
   explicit CommandLine(CLI::App& app) : app_(&app) {}
 
+  /// In the help, over the commands, or the options, that are added from here on.
+  void heading_of_commands(const char* heading) { heading_ = heading; }
+  void heading_of_options(const char* heading);
+
   CommandLine add_command(const char* name, const char* doc);
 
   /// @param names  "-o,--output", or "CONFIG" for a positional argument
@@ -67,6 +71,7 @@ class CommandLine {
 
  private:
   CLI::App* app_;
+  std::string heading_;
 };
 
 inline constexpr int kInterruptedWithReport = 130;  ///< as of any command that was interrupted

@@ -230,12 +230,13 @@ void add_init(CommandLine& app) {
                    .within(1e-9, 1e6);
   mass.needs(arm);
   arm.needs(mass);
-  Option inertia = command
-                       .add_option("--inertia", arguments->inertia,
-                                   "known inertia of the motor's side, before a gear that of the rotor where "
-                                   "--torque-constant is given, too [kg m^2; of a slide kg]")
-                       .value("INERTIA")
-                       .within(1e-12, 1e9);
+  Option inertia =
+      command
+          .add_option("--inertia", arguments->inertia,
+                      "motor inertia; with --torque-constant, the rotor inertia from the data sheet "
+                      "(before the gear) [kg m^2; of a slide kg]")
+          .value("INERTIA")
+          .within(1e-12, 1e9);
   for (Option* anchor : {&mass, &inertia}) anchor->excludes(from);
   inertia.excludes(mass);
   Option constant =

@@ -23,6 +23,7 @@ namespace {
 constexpr int kFailed = 1, kWrongInput = 2;
 
 void add_commands(CommandLine& program) {
+  program.heading_of_commands("Your drive");
   add_check(program);
   add_init(program);
   add_run(program);
@@ -33,10 +34,13 @@ void add_commands(CommandLine& program) {
   add_simulate(program);
   add_drive_export(program);
   add_report(program);
+  program.heading_of_commands("Many runs");
+  add_campaign(program);
+  program.heading_of_commands("Is it to be believed");
+  add_blind(program);
+  program.heading_of_commands("To look up");
   add_effects(program);
   add_schema(program);
-  add_campaign(program);
-  add_blind(program);
   add_completion(program);
   add_man(program);
 }

@@ -226,8 +226,7 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
   command
       .add_option("--input-register", a.input_register,
                   "how a signed number was held that was read as an unsigned one: bits of two's complement "
-                  "(65535 is -1 "
-                  "of 16), sign10 (bit 10 above the size), offset2048")
+                  "(65535 is -1 of 16), sign10 (bit 10 above the size), offset2048")
       .value("FORM");
   command.add_option("--bits", a.bits, "of the encoder, for --position-unit counts").value("N").within(1, 40);
   command
@@ -273,6 +272,7 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
 
 void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("FILE", a.file, "recording (CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON)").required();
+  command.heading_of_options("Columns and rows");
   command.add_option("--time", a.time, "column (or array) of the time (default: t, or as it is called)")
       .value("NAME");
   command.add_option("--input", a.input, "column of the input (default: u, or as it is called)")
@@ -323,9 +323,12 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
   command.add_option("--resample", a.resample, "rate that it is brought to [Hz]")
       .value("RATE")
       .within(1e-3, 1e7);
-  add_unit_options(command, a);
-  add_controller_options(command, a);
+  command.heading_of_options("Units");
   command.add_flag("--translation", a.translation, "positions in m and forces in N instead of rad and N m");
+  add_unit_options(command, a);
+  command.heading_of_options("A servo that logs its goal");
+  add_controller_options(command, a);
+  command.heading_of_options("Beyond the recording");
 }
 
 void require_three_columns(const RecordingColumns& c) {

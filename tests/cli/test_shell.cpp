@@ -4,6 +4,7 @@
 
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "cli/executable.h"
@@ -27,7 +28,7 @@ Words lines_of(const std::string& text) {
   return lines;
 }
 
-/// What the help of a command lists: "-o" and "--output" under Options, "merge" under Subcommands.
+/// What the help of a command lists: "-o" and "--output" under any heading, "merge" under those of commands.
 struct Listed {
   Words options, commands;
 };
@@ -36,14 +37,16 @@ Listed listed_in_help(const Workplace& place, const std::string& command) {
   Listed listed;
   std::string heading;
   static const std::regex option("^  (-[^ ]*)"), below("^  ([a-z]+) ");
+  static const std::set<std::string> of_commands = {
+      "Subcommands:", "Your drive:", "Many runs:", "Is it to be believed:", "To look up:"};
   std::smatch m;
   for (const std::string& line : lines_of(place.run(command + " --help").out)) {
     if (line[0] != ' ') heading = line;
-    if (heading == "Options:" && std::regex_search(line, m, option)) {
+    if (std::regex_search(line, m, option)) {
       std::istringstream names(m[1]);
       for (std::string name; std::getline(names, name, ',');) listed.options.push_back(name);
     }
-    if (heading == "Subcommands:" && std::regex_search(line, m, below)) listed.commands.push_back(m[1]);
+    if (of_commands.contains(heading) && std::regex_search(line, m, below)) listed.commands.push_back(m[1]);
   }
   return listed;
 }
