@@ -23,5 +23,5 @@ says '^model-free +22\.[0-9]+ mrad' "$usr/bin/gapscope" detect "$usr/share/doc/g
 for file in man/man1/gapscope.1 bash-completion/completions/gapscope zsh/vendor-completions/_gapscope; do
   grep -q diagnose "$usr/share/$file" || fail "share/$file does not know diagnose"
 done
-only=measure_gap build_project "$usr/share/doc/libgapscope-dev/examples" example "$usr"
-says '^gap 22\.[0-9]+ mrad' "$work/example/measure_gap" "$usr/share/doc/gapscope/examples/03_recording.csv"
+only=export_drive build_project "$usr/share/doc/libgapscope-dev/examples" example "$usr"
+(cd "$work" && says '^drive_.*\.h: [0-9]+ bytes' "$work/example/export_drive" "$usr/share/doc/gapscope/examples/02_experiment.yaml")

@@ -278,6 +278,13 @@ class Documents(InAFolder):
         self.assertIn("backlash 0.022", done.stdout)
         self.assertIn("<mujoco", (self.folder / "drive_03_recording.xml").read_text())
 
+    def test_the_numbered_example_reads_a_gap(self):
+        os.environ["PYTHONPATH"] = str(Path(gapscope.__file__).resolve().parents[1])
+        done = subprocess.run([sys.executable, str(SOURCE / "docs/example/10_python.py"), str(CSV)],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("backlash 22.", done.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()
