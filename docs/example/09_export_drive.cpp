@@ -1,7 +1,7 @@
 // export_drive CONFIG: the drive of a configuration, such as the fitted.yaml of a report, as a C header with
 // a step function, and what the certificate says of it.
 #include <gapscope/base/errors.h>
-#include <gapscope/exports/export.h>
+#include <gapscope/exports/export_drive.h>
 
 #include <cstdio>
 #include <fstream>
@@ -12,8 +12,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const gapscope::Configuration configuration = gapscope::load_configuration(argv[1]);
-    const gapscope::DriveExport drive = gapscope::export_drive(configuration, gapscope::ExportFormat::kC);
+    const gapscope::DriveExport drive = gapscope::export_drive(argv[1], gapscope::ExportFormat::kC);
     for (const gapscope::ExportedFile& file : drive.files) {
       std::ofstream(file.name) << file.text;
       std::printf("%s: %zu bytes\n", file.name.c_str(), file.text.size());

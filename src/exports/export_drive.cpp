@@ -54,4 +54,8 @@ DriveExport export_drive(const Configuration& configuration, ExportFormat format
   return out;
 }
 
+DriveExport export_drive(const std::string& configuration_file, ExportFormat format) {
+  return export_drive(load_configuration(configuration_file), format);
+}
+
 }  // namespace gapscope

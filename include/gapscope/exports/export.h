@@ -1,42 +1,15 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "gapscope/config/configuration.h"
 #include "gapscope/config/joint_numbers.h"
-#include "gapscope/results/certificate.h"
+#include "gapscope/exports/export_drive.h"
 
 namespace gapscope {
 
-enum class ExportFormat { kMjcf, kC, kSdf, kUrdf, kIsaac, kBam };
-
-/// The word by which a format is asked for, and one line of what it is.
-struct ExportFormatSpec {
-  ExportFormat format;
-  const char* name;
-  const char* doc;
-};
-std::span<const ExportFormatSpec> export_formats();
-
-struct ExportedFile {
-  std::string name;
-  std::string text;
-};
-
-/// A drive in the format of a simulator, with what that format can say of it.
-struct DriveExport {
-  std::vector<ExportedFile> files;
-  Certificate certificate;
-};
-
-/// The drive of a configuration as a simulator takes it: of `simulation:` the plant under its excitation
-/// (fitted.yaml of a report), of `recording:` the model under the recorded input.
+/// The same of a configuration that was read already.
 /// @param own  of the MJCF that has the joint already: the certificate of mjcf then tells the numbers for it
-/// @throws ConfigError where a number of the model is not known, or the recording cannot be read;
-/// Interrupted
 DriveExport export_drive(const Configuration& configuration, ExportFormat format,
                          const std::optional<JointNumbers>& own = {});
 
