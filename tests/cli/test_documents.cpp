@@ -74,6 +74,20 @@ TEST(Documents, TheReadmeShowsWhatTheFirstExampleSays) {
   expect_shown(find_block(text_of(kRoot / "README.md"), "", "report      reports/02_experiment"), run.out);
 }
 
+TEST(Documents, ThePictureOfTheReadmeIsOfWhatIsRead) {
+  GAPSCOPE_NEEDS_DATA();
+  Workplace place;
+  fs::create_symlink(testing::data_folder() / "cycloidal/baseline_pos1.csv", place.folder() / "ramps.csv");
+  ASSERT_EQ(place.run("init ramps.csv --input-unit 'N m' --model locked").status, 0);
+  const auto detect = place.run("detect ramps.yaml");
+  const std::string readme = std::regex_replace(text_of(kRoot / "README.md"), std::regex("\n"), " ");
+  EXPECT_THAT(detect.out,
+              HasSubstr("lost motion at zero torque is 33.7 mrad after ramps to ±3.95 and 37.5 mrad"));
+  EXPECT_THAT(detect.out, HasSubstr("gap is at most 35.1 mrad"));
+  EXPECT_THAT(readme, HasSubstr("33.7 mrad of play after small ramps, 37.5 mrad after large ones"));
+  EXPECT_THAT(readme, HasSubstr("the gap is at most 35 mrad"));
+}
+
 TEST(Documents, TheTutorialShowsWhatCheckAndDetectSay) {
   GAPSCOPE_NEEDS_DATA();
   const std::string tutorial = text_of(kRoot / "docs/tutorial.md");
