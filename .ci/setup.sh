@@ -21,16 +21,16 @@ install_packages() {
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build FOLDER TARGET [CMAKE-OPTION...]: a module at once, since the headers take longest; who works on them
+# build FOLDER TARGETS [CMAKE-OPTION...]: a module at once, since the headers take longest; who works on them
 # has every file apart.
 build() {
-  local folder=$1 target=$2
+  local folder=$1 targets=$2
   shift 2
-  say "Building $target in $folder ($(nproc) jobs)"
+  say "Building $targets in $folder ($(nproc) jobs)"
   cmake -S . -B "$folder" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "$@" >"$folder.configure.log" 2>&1 ||
     { cat "$folder.configure.log" >&2; rm -f "$folder.configure.log"; exit 1; }
   rm -f "$folder.configure.log"
-  cmake --build "$folder" --target "$target"
+  cmake --build "$folder" --target $targets
 }
 
 mapfile -t packages <.ci/packages            # to build and to run gapscope

@@ -28,18 +28,21 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << to_string(c.command) << " of " << letter_of(c.base);
 }
 
-/// Of each relation and command one base, in turn; with GAPSCOPE_EVERY_BASE set all of them (.ci/hour).
+/// Of each relation one command and one base, in turn; with GAPSCOPE_EVERY_BASE set all of them (.ci/hour).
 std::vector<Case> cases() {
   const bool every = std::getenv("GAPSCOPE_EVERY_BASE") != nullptr;
   std::vector<Case> all;
   std::size_t turn = 0;
-  for (const Relation& relation : relations())
-    for (const Command command : {Command::kDetect, Command::kRun, Command::kDiagnose}) {
-      const std::string_view bases = relation.asked(command).bases;
-      if (bases.empty()) continue;
-      for (const char letter : every ? bases : bases.substr(turn++ % bases.size(), 1))
-        all.push_back({&relation, base_of(letter), command});
-    }
+  for (const Relation& relation : relations()) {
+    std::vector<Case> of_relation;
+    for (const Command command : {Command::kDetect, Command::kRun, Command::kDiagnose})
+      for (const char letter : std::string_view(relation.asked(command).bases))
+        of_relation.push_back({&relation, base_of(letter), command});
+    if (every)
+      all.insert(all.end(), of_relation.begin(), of_relation.end());
+    else
+      all.push_back(of_relation[turn++ % of_relation.size()]);
+  }
   return all;
 }
 
