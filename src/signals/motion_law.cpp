@@ -26,8 +26,13 @@ LawColumns::LawColumns(const MotorTrace& trace, const LawStretch& stretch, const
 
 /// Of the motion from sample i to the next, in the mean.
 double LawColumns::sign_from(std::size_t i) const {
-  const double behind = 2.0 * (static_cast<double>(i) + 1.0 - stretch_.turn) - 1.0;
-  return stretch_.direction * std::clamp(behind, -1.0, 1.0);
+  const double behind = std::clamp(2.0 * (static_cast<double>(i) + 1.0 - stretch_.turn) - 1.0, -1.0, 1.0);
+  if (!(stretch_.bend > 0.0) || behind < 0.0 || stretch_.turn <= static_cast<double>(stretch_.first))
+    return stretch_.direction * behind;
+  const auto turn = static_cast<std::size_t>(std::lround(stretch_.turn));
+  const auto& x = trace_->x1;
+  const double way = std::abs(0.5 * (x[i] + x[std::min(i + 1, x.size() - 1)]) - x[turn]);
+  return stretch_.direction * (1.0 - 2.0 * std::exp(-way / stretch_.bend));
 }
 
 /// What accelerates between sample i and the next: u, (the speed), the sign, powers of the place.

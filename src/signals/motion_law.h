@@ -13,6 +13,7 @@ struct LawStretch {
   std::size_t first = 0, last = 0;
   double turn = 0.0;  ///< where x1 turns round [samples]; not after `first`: it does not
   int direction = 0;  ///< of x1 behind the turn
+  double bend = 0.0;  ///< way behind the turn on which 1 − 1/e of the dry friction's change is done [rad]
 };
 
 /// A force that depends on the place: g(x1) = Σ g_k p^k, k = 0 … powers − 1, p = (x1 − centre)/half.

@@ -54,6 +54,30 @@ TEST(MotionLaw, FindsTheLawThatStretchesShareAndTheStateInEach) {
   EXPECT_NEAR(rest.drive(), 3.0, 0.05);
 }
 
+/// ẍ = 3 u − 2 ẋ − 0.5 z, where dz/dx = (1 − z sign(ẋ))/bend: friction that bends before it slides.
+TEST(MotionLaw, FrictionThatBendsBehindATurnIsFollowedWithItsBend) {
+  constexpr double kBend = 2e-3;
+  std::vector<double> u, x1;
+  double x = 0.1, v = 0.0, z = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    u.push_back(std::sin(2.0 * kPi * 1e-3 * i));
+    x1.push_back(x);
+    for (int k = 0; k < 100; ++k) {
+      v += 1e-5 * (3.0 * u.back() - 2.0 * v - 0.5 * z);
+      x += 1e-5 * v;
+      z += 1e-5 * v / kBend * (1.0 - z * (v > 0.0 ? 1.0 : -1.0));
+    }
+  }
+  const MotorTrace trace{"bends", 0.0, 1e-3, u, x1};
+  const std::size_t turn = turn_after(trace, 400);
+  const auto law = [&](double bend) {
+    return MotionLaw(trace, {{turn - 200, turn + 200, static_cast<double>(turn) + 1.0, -1, bend}});
+  };
+  EXPECT_NEAR(law(kBend).drive(), 3.0, 0.01);
+  EXPECT_NEAR(law(kBend).dry(), 0.5, 0.01);
+  EXPECT_LT(law(kBend).rms(), 0.1 * law(0.0).rms());
+}
+
 TEST(MotionLaw, FrictionThatWouldDriveIsNoneWhereItIsToBePassive) {
   std::vector<double> u, x1;
   for (int i = 0; i < 400; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "gapscope/base/statistics.h"
@@ -11,11 +12,14 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-/// Of the way from the rest to the impact: the last of the arrival, looked at. What leaves earlier shows in
-/// the longer ones.
-constexpr double kArrivals[] = {0.06, 0.12, 0.25};
-/// Of the flight: a rest, no turn. Of four gap sine wide rubs, 5160033, 5160072 and 5110017 (44, 4 and 23 %
-/// too small) are refused by it, half and double, and 5160032 (1.3 %) is told by it and double, not by half.
+/// Of the way from the rest to the impact: the last of the arrival, looked at. The shortest that has samples
+/// enough tells whether the load is still there at the rest, the longer ones whether it has left before.
+constexpr double kArrivals[] = {0.015, 0.03, 0.06, 0.12, 0.25};
+/// The shortest of them in which a lone motor shows; any law follows less.
+constexpr double kTellsAlone = 0.06;
+/// Of the flight: how long its own friction holds a motor that rests by it. Of four gap sine wide rubs,
+/// 5160033, 5160072 and 5110017 (44, 4 and 23 % too small) are refused by it, half and double, and 5160032
+/// (1.3 %) is told by it and double, not by half.
 constexpr double kStay = 0.1;
 /// Mean square that one law may leave of the arrival, over the noise's. Where the load has left it is 1.1
 /// (3380020 gap trapezoid) and 0.9 (3387027), where it has not 1.3 to 90 over the last few counts (3380009,
@@ -56,12 +60,6 @@ std::size_t arriving(const MotorTrace& trace, const Reversal& r, double way, dou
 /// From the last extreme sample to the end of the flight.
 double flight_length(const RestBeforeFlight& p) {
   return static_cast<double>(p.core - std::min(p.core, p.rest.last));
-}
-
-/// A rest, not a turn, from which the flight begins.
-bool rests(const RestBeforeFlight& p) {
-  return p.begin >= p.rest.first &&
-         static_cast<double>(p.rest.last - p.rest.first) >= kStay * flight_length(p);
 }
 
 signals::LawStretch flight_stretch(const RestBeforeFlight& p) {
@@ -108,15 +106,14 @@ Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> pas
   return a;
 }
 
-/// Whether one law follows flights and arrivals, each from a place and at a speed of its own.
-bool follows(const MotorTrace& trace, const signals::SignalFacts& facts, const signals::MotionLaw& alone,
-             std::span<const signals::LawStretch> flights, const Arrivals& a) {
+/// What one law of flights and arrivals leaves of the arrivals, each from a place and at a speed of its own:
+/// root mean square [rad].
+double left_by_one_law(const MotorTrace& trace, const signals::MotionLaw& alone,
+                       std::span<const signals::LawStretch> flights, const Arrivals& a) {
   std::vector<signals::LawStretch> both(flights.begin(), flights.end());
   both.insert(both.end(), a.stretches.begin(), a.stretches.end());
   const signals::MotionLaw law(trace, both, signals::MotionLaw::Friction::kPassive);
-  const double left = (law.squares() - alone.squares()) / a.rows;
-  const double noise = std::max(alone.rms(), facts.noise);
-  return left < kFollows * noise * noise;
+  return std::sqrt(std::max(law.squares() - alone.squares(), 0.0) / a.rows);
 }
 
 /// Whether a lone motor can do all that: arrive, rest at one place without a speed, and leave from there.
@@ -145,26 +142,30 @@ RestingPlace resting_place(const MotorTrace& trace, const signals::SignalFacts& 
   for (const RestBeforeFlight& p : some) {
     if (p.core < p.begin + signals::MotionLaw::kFewestRows) continue;
     const bool rubs = rubs_to_rest(trace, p, least);
-    if (rubs || rests(p)) at_rest.push_back(p);
+    at_rest.push_back(p);
     rubbing += rubs;
   }
-  if (2 * at_rest.size() < some.size() || at_rest.empty()) return RestingPlace::kNowhere;
+  if (at_rest.empty()) return RestingPlace::kUntold;
   std::vector<signals::LawStretch> flights;
   for (const auto& p : at_rest) flights.push_back(flight_stretch(p));
   const signals::MotionLaw alone(trace, flights, signals::MotionLaw::Friction::kPassive);
   std::vector<double> held;
   for (const auto& p : at_rest) held.push_back(held_back(trace, p.rest, alone.drive(), alone.dry()));
   if (median(held) > least) return RestingPlace::kAtLoad;
-  RestingPlace place = RestingPlace::kUntold;
+  const double noise = std::max(alone.rms(), facts.noise);
+  std::optional<RestingPlace> nearest;
   for (const double share : kArrivals) {
     const Arrivals a = arrivals(trace, at_rest, share, least);
     if (!(a.rows > 0.0)) continue;
-    const bool lone = (2 * rubbing >= at_rest.size() || follows(trace, facts, alone, flights, a)) &&
-                      can_be_alone(trace, facts, alone, a);
-    if (lone) return RestingPlace::kAlone;
-    place = RestingPlace::kAtLoad;
+    const double left = left_by_one_law(trace, alone, flights, a);
+    const bool followed = left * left < kFollows * noise * noise;
+    if (share >= kTellsAlone && (followed || 2 * rubbing >= at_rest.size()) &&
+        can_be_alone(trace, facts, alone, a))
+      return RestingPlace::kAlone;
+    const bool departs = !followed && left > kOwnBending * std::max(share * at_rest.front().rest.rise, least);
+    if (!nearest) nearest = departs ? RestingPlace::kAtLoad : RestingPlace::kUntold;
   }
-  return place;
+  return nearest.value_or(RestingPlace::kUntold);
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -14,7 +14,13 @@ namespace {
 /// gap sine wide rubs.
 constexpr int kMostSteps = 20;
 
-constexpr double kTurnDoubt = 1.0, kFinestTurn = 0.02;  ///< samples
+/// Of the way behind a turn: on which the dry friction may change its sign (signals/motion_law.h); the first
+/// that x1 tells apart is taken.
+constexpr double kBends[] = {0.0, 0.005, 0.01, 0.02, 0.04, 0.08};
+constexpr double kBendShows = 10.0;  ///< in χ²
+
+/// A friction that bends steps as late as if the turn were a sample or two later: 1 is at its edge then.
+constexpr double kTurnDoubt = 3.0, kFinestTurn = 0.02;  ///< samples
 constexpr std::size_t kMostRowsOfTurn = 400;
 
 /// The sample in one direction from which on x1 is that far from its extremum, or the last one there is.
@@ -53,20 +59,32 @@ double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, d
   return std::abs(turn - middle) <= stay ? turn : middle;
 }
 
-double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
-                   double noise) {
+Turn turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
+                 double noise) {
   struct Trial {
     double turn, sse;
   };
   const std::size_t stride = (last - from) / kMostRowsOfTurn + 1;
-  const auto trial = [&](double turn) {
-    const signals::LawColumns law(trace, {from, last, turn, direction});
-    const Eigen::MatrixXd A = law.rows(from, last, stride);
-    const Eigen::VectorXd y = law.positions(from, last, stride);
-    return Trial{turn, (A * signals::least_squares_of(A, y) - y).squaredNorm()};
-  };
-  const Trial least = least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt, 0.5 * kTurnDoubt, kFinestTurn);
-  return trial(guess).sse - least.sse > noise * noise ? least.turn : guess;
+  const double way = std::abs(trace.x1[last] - trace.x1[static_cast<std::size_t>(std::lround(guess))]);
+  Turn best{guess};
+  double least = kInfinity;
+  const double rows = static_cast<double>((last - from) / stride + 1);
+  for (const double share : kBends) {
+    if (least < rows * noise * noise) break;  // noise alone leaves as much
+    const auto trial = [&](double turn) {
+      const signals::LawColumns law(trace, {from, last, turn, direction, share * way});
+      const Eigen::MatrixXd A = law.rows(from, last, stride);
+      const Eigen::VectorXd y = law.positions(from, last, stride);
+      return Trial{turn, (A * signals::least_squares_of(A, y) - y).squaredNorm()};
+    };
+    const double asked = share > 0.0 ? kBendShows : 1.0;
+    const Trial at_guess = trial(guess), found = least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt,
+                                                           kTurnDoubt / 6.0, kFinestTurn);
+    const Trial& to = at_guess.sse - found.sse > noise * noise ? found : at_guess;
+    if (!(to.sse < least - asked * noise * noise)) continue;
+    least = to.sse, best = {to.turn, share * way};
+  }
+  return best;
 }
 
 std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side) {

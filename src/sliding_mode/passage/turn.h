@@ -19,11 +19,17 @@ inline constexpr double kTurnWay = 0.1;
 /// @returns samples; the middle of the stay where the stretch tells none within it
 double turn_time(const MotorTrace& trace, std::size_t first, std::size_t last, double way);
 
-/// The same by the law of a motor that is alone before and after it: the turn by which the law holds best.
+struct Turn {
+  double time = 0.0;  ///< [samples]
+  double bend = 0.0;  ///< of the dry friction behind it (signals/motion_law.h) [rad]
+};
+
+/// The same by the law of a motor that is alone before and after it: the turn, and the bend of its dry
+/// friction, by which the law holds best.
 /// @param from, last  samples that it is fitted to   @param guess  known to a sample or two   @param
 /// direction of x1 behind it
-double turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
-                   double noise);
+Turn turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, double guess, int direction,
+                 double noise);
 
 /// Index of the largest side·x1 in [first, last], the latest of equal ones.
 std::size_t farthest(const MotorTrace& trace, std::size_t first, std::size_t last, int side);

@@ -123,7 +123,8 @@ LostMotion measured(Levels levels) {
   m.value = sum / weights;
   const double half = 1.0 / std::sqrt(weights);
   m.ci95 = {m.value - half, m.value + half};
-  const double limit = limit_of(levels);
+  // A loop that u is late for bounds nothing.
+  const double limit = any(levels, &TorqueLevel::runs_backwards) ? kNaN : limit_of(levels);
   if (std::isfinite(limit)) m.gap_limit = limit;
   return m;
 }

@@ -127,7 +127,7 @@ double recordings_disagreement(const std::vector<const Passage*>& passages) {
 /// Whether the motor rested at its load before most passages, or the law of the load is known.
 bool load_known(const Pool& pool) {
   const auto known = std::ranges::count_if(
-      pool.accepted, [](const Passage* p) { return (p->dwell && !p->untold) || p->by_law; });
+      pool.accepted, [](const Passage* p) { return (p->dwell || p->by_law) && !p->untold; });
   return 2 * known >= std::ssize(pool.accepted);
 }
 
