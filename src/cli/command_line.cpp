@@ -78,8 +78,12 @@ std::string option_words(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return name;
   const std::vector<std::string> values = option.results();
   if (values.size() == 1 && values[0].starts_with('-')) return name + "=" + value_word(values[0]);
-  std::string text = name;
-  for (const std::string& value : values) text += " " + value_word(value);
+  const bool one_each = !option.get_allow_extra_args() && option.get_expected_min() < 2;
+  std::string text;
+  for (const std::string& value : values) {
+    if (text.empty() || one_each) text += (text.empty() ? "" : " ") + name;
+    text += " " + value_word(value);
+  }
   return text;
 }
 

@@ -92,10 +92,10 @@ struct RecordingArguments {
   std::vector<double> window;  ///< empty or two [s]
   double resample = 0.0;       ///< 0: as it stands [Hz]
   bool translation = false;
-  std::string voltage;         ///< empty: none
-  std::string target;          ///< empty: none; else the input is what the controller makes of it
-  std::string gain;            ///< of that controller: a number, or estimate
-  DriveController controller;  ///< its other numbers
+  std::string voltage;           ///< empty: none
+  std::string target;            ///< empty: none; else the input is what the controller makes of it
+  std::string gain;              ///< of that controller: a number, or estimate
+  std::vector<std::string> set;  ///< its other numbers: "controller.position.derivative=0.1"
   std::optional<DriveController> of_model;  ///< where no gain is given: that of a simulator's model
   DeclaredUnits units;
   RegisterForms registers;

@@ -23,6 +23,35 @@ EncoderConfig RecordingArguments::encoder() const {
   return encoder;
 }
 
+namespace {
+
+/// The controller with numbers that are set as in a configuration; its gain is told apart.
+/// @throws ConfigError "--set KEY: ..."
+DriveController controller_with(const std::vector<std::string>& set) {
+  std::vector<Setting> settings;
+  for (const std::string& text : set) {
+    settings.push_back(read_setting(text));
+    if (!settings.back().key.starts_with("controller."))
+      throw ConfigError(
+          fmt::format("gapscope: --set {} is of no controller, expected controller.KEY=VALUE: the rest of a "
+                      "configuration is written into its file",
+                      shown(settings.back().key)));
+  }
+  DriveController controller;
+  if (settings.empty()) return controller;
+  telling_settings(settings, [&] {
+    controller = parse_configuration(
+                     "name: servo\nrecording: {file: servo.csv, columns: {target: goal}}\ncontroller: "
+                     "{position: {gain: 1}}\n"
+                     "model: {parameters: {motor_inertia: 1, torque_constant: 1, mass_ratio: 0}}\n",
+                     "--set", settings)
+                     .controller->at_start();
+  });
+  return controller;
+}
+
+}  // namespace
+
 std::optional<DriveController> RecordingArguments::commanding() const {
   if (target.empty() && gain.empty()) return {};
   if (target.empty())
@@ -34,7 +63,7 @@ std::optional<DriveController> RecordingArguments::commanding() const {
     throw ConfigError(
         "gapscope: --target stands without --controller-gain, expected the gain of the servo's position "
         "controller beside it, or --controller-gain estimate where nobody knows it");
-  DriveController c = controller;
+  DriveController c = controller_with(set);
   c.gain = decimal(gain).value_or(1.0);  // one that is sought begins there
   return c;
 }
@@ -254,18 +283,12 @@ void add_controller_options(CommandLine& command, RecordingArguments& a) {
                                ? ""
                                : "expected a number up to 1e12, or estimate");
       });
-  command.add_option("--controller-derivative", a.controller.derivative, "input unit per rad/s of it")
-      .value("GAIN")
-      .within(-1e12, 1e12);
-  command.add_option("--controller-rate", a.controller.rate, "of its updates (default: one at each row) [Hz]")
-      .value("RATE")
-      .within(0.0, 1e5);
-  command.add_option("--controller-delay", a.controller.delay, "from reading to acting [s]")
-      .value("TIME")
-      .within(0.0, 1.0);
-  command.add_option("--controller-saturation", a.controller.saturation, "limit of its output [input unit]")
-      .value("LIMIT")
-      .within(1e-12, 1e12);
+  command
+      .add_option("--set", a.set,
+                  "another number of that controller, as controller: has it, e.g. "
+                  "controller.position.saturation=1; may be repeated")
+      .value("controller.KEY=VALUE")
+      .one_value_each();
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::optional<Finding> large_duty(const Material& m, const std::string& found) {
   if (m.commanded)
     return Finding{kInputRule, Severity::kNote, found + size + ", of the controller's gain, where 1 is all",
                    "is the gain in units of the firmware? It has to be duty per rad (--controller-gain, or "
-                   "estimate); a limit of the duty is --controller-saturation 1",
+                   "estimate); a limit of the duty is --set controller.position.saturation=1",
                    true};
   return Finding{
       kInputRule, Severity::kNote, found + size + ", where 1 is all of the supply",

@@ -113,6 +113,12 @@ TEST(Init, AServoThatTakesGoalsMayHaveAGainThatNobodyKnows) {
   EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # not known apart from the controller's gain"));
   EXPECT_EQ(place.run(init + " --controller-gain 2 --voltage volts -o duty.yaml").status, 0);
   EXPECT_THAT(testing::text_of(place.folder() / "duty.yaml"), HasSubstr("gain: 2  # duty per rad"));
+  const std::string set = init + " --controller-gain 2 --set controller.position.saturation=0.8 --set ";
+  EXPECT_EQ(place.run(set + "controller.position.delay=0.004 -o set.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "set.yaml"),
+              ::testing::AllOf(HasSubstr("saturation: 0.8"), HasSubstr("delay: 0.004")));
+  EXPECT_THAT(place.run(set + "model.parameters.gap=1 -o m.yaml").err, HasSubstr("is of no controller"));
+  EXPECT_THAT(place.run(set + "controller.dealy=0.004 -o m.yaml").err, HasSubstr("--set controller.dealy"));
 }
 
 TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
