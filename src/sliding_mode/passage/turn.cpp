@@ -16,7 +16,7 @@ constexpr int kMostSteps = 20;
 
 /// Of the way behind a turn: on which the dry friction may change its sign (signals/motion_law.h); the first
 /// that x1 tells apart is taken.
-constexpr double kBends[] = {0.0, 0.005, 0.01, 0.02, 0.04, 0.08};
+constexpr double kBends[] = {0.0, 0.01, 0.04};
 constexpr double kBendShows = 10.0;  ///< in χ²
 
 /// A friction that bends steps as late as if the turn were a sample or two later: 1 is at its edge then.
@@ -79,7 +79,7 @@ Turn turn_by_law(const MotorTrace& trace, std::size_t from, std::size_t last, do
     };
     const double asked = share > 0.0 ? kBendShows : 1.0;
     const Trial at_guess = trial(guess), found = least_sse(trial, guess - kTurnDoubt, guess + kTurnDoubt,
-                                                           kTurnDoubt / 6.0, kFinestTurn);
+                                                           kTurnDoubt / 3.0, kFinestTurn);
     const Trial& to = at_guess.sse - found.sse > noise * noise ? found : at_guess;
     if (!(to.sse < least - asked * noise * noise)) continue;
     least = to.sse, best = {to.turn, share * way};
