@@ -208,6 +208,7 @@ void print_headline(const std::string& folder, const RunResult& r, const ToldCon
   if (r.model_free) line("model-free", model_free_line(*r.model_free, r.coordinates));
   if (r.model_free && r.model_free->lost_motion.read())
     line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
+  if (r.literal) line("literal", model_free_line(*r.literal, r.coordinates));
   if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
   if (r.reference && !r.model_free)
     print_parameters(*r.reference, r.input.value_or(InputFacts{}), r.coordinates);

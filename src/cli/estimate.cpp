@@ -127,7 +127,8 @@ void add_streaming(CommandLine& detect, const std::shared_ptr<EstimateArguments>
       return detect_stream(a->columns, a->quantum, a->resample);
     }
     if (!config.given()) throw_missing("CONFIG");
-    with_configuration(a->config, [&](const Configuration& c) { estimate_axes(*a, c, {true, false}); });
+    with_configuration(a->config,
+                       [&](const Configuration& c) { estimate_axes(*a, c, {.reference = false}); });
   });
 }
 
@@ -157,7 +158,7 @@ void add_run(CommandLine& app) {
       "Ctrl-C while the model is still fitted keeps the reading without a model, and while the report is\n"
       "drawn all of it (exit status 130); a second one ends at once and keeps nothing.\n\n"
       "Example: gapscope run configs/02_experiment.yaml -o reports/experiment",
-      {true, true, true});
+      {.reading_is_kept = true});
 }
 
 void add_detect(CommandLine& app) {
@@ -198,13 +199,13 @@ void add_detect(CommandLine& app) {
       "lost-motion loop (locked outputs).\n\n"
       "Example: gapscope detect configs/02_experiment.yaml -o reports/detected\n"
       "         tail -n +1 -f drive.csv | gapscope detect --stream --input i_q > events.jsonl",
-      {true, false}, arguments);
+      {.reference = false}, arguments);
   add_streaming(command, arguments);
 }
 
 void add_fit(CommandLine& app) {
   add(app, "fit", "The model-based reference alone: parameters of the drive, fitted to u and x1",
-      fit_details(), {false, true});
+      fit_details(), {.model_free = false, .literal = false});
 }
 
 }  // namespace gapscope::cli

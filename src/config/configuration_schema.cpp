@@ -237,6 +237,9 @@ Json detector_schema() {
       words_schema({"auto", "impact", "lost_motion", "paper", "literal"},
                    "auto: the loop or the impacts, whichever reads; literal: S1 to S6 as printed at a "
                    "bound; paper: the same, improved"));
+  detector.add("literal",
+               number_schema({1e-9, 1e12, "rad/s^2"},
+                             "L of S1 to S6 as printed, read beside the rest as a third estimator"));
   Json schema = detector.schema("the model-free estimator");
   const Json bound = {{"allOf", {having("bound"), none_of({having("bound", being("auto"))})}}};
   add_rule(where(having("method", {{"enum", {"paper", "literal"}}}), bound), schema);

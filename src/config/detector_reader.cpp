@@ -40,7 +40,7 @@ void require_bound_for_method(const Value& method, const DetectorConfig& detecto
 }  // namespace
 
 DetectorConfig read_detector(const Value& value) {
-  const Section section(value, {"method", "bound"});
+  const Section section(value, {"method", "bound", "literal"});
   DetectorConfig detector;
   detector.line = value.line();
   if (const auto bound = section.find("bound")) read_bound(*bound, detector);
@@ -49,6 +49,8 @@ DetectorConfig read_detector(const Value& value) {
         static_cast<DetectorMethod>(method->word({"auto", "impact", "lost_motion", "paper", "literal"}));
     require_bound_for_method(*method, detector);
   }
+  if (const auto literal = section.find("literal"))
+    detector.literal = literal->number({1e-9, 1e12, "rad/s^2"});
   return detector;
 }
 

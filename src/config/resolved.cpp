@@ -169,6 +169,7 @@ void write_detector(YamlWriter& out, const DetectorConfig& detector) {
     out.quantity("bound", detector.bound ? yaml_number(*detector.bound) : "auto",
                  detector.bound ? "rad/s^2" : "");
   }
+  if (detector.literal) out.quantity("literal", yaml_number(*detector.literal), "rad/s^2");
   out.close();
 }
 

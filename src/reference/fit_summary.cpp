@@ -82,6 +82,13 @@ std::vector<std::string> FitSummary::at_bound() const {
   return keys;
 }
 
+std::vector<std::string> FitSummary::given() const {
+  std::vector<std::string> keys;
+  for (const FittedParameter& p : parameters)
+    if (!p.estimated && std::isfinite(p.value)) keys.push_back(p.key);
+  return keys;
+}
+
 bool FitSummary::closes_gap() const {
   const FittedParameter* gap = find("gap");
   const bool at_none = gap != nullptr && gap->estimated && gap->at_bound && gap->low == 0.0;

@@ -58,6 +58,16 @@ void add_model_free(const ReportView& view, Panel& panel) {
   add_row(panel, "model-free", g.gap, g.ci95, model_free_style(), Marker::kDisc, remark);
 }
 
+/// S1 to S6 as printed: no interval, the scatter of its passages.
+void add_literal(const ReportView& view, Panel& panel) {
+  if (!view.run.literal) return;
+  const GapEstimate& g = *view.run.literal;
+  const std::string remark = std::isfinite(g.gap) ? quantity(g.gap, view.length_unit) + ", scatter " +
+                                                        quantity(g.std, view.length_unit)
+                                                  : "inconclusive";
+  add_row(panel, "literal", g.gap, {}, literal_style(), Marker::kCircle, remark);
+}
+
 void add_reference(const ReportView& view, Panel& panel) {
   const FittedParameter* gap = parameter(view.run, "gap");
   if (gap == nullptr) return;
@@ -87,6 +97,7 @@ Panel side_by_side(const ReportView& view) {
   panel.title = "Estimates with 95 % intervals";
   panel.x = {is_play(view) ? "play at zero torque, gap" : "backlash gap $2β$", view.length_unit, {}, {}, {}};
   add_model_free(view, panel);
+  add_literal(view, panel);
   add_reference(view, panel);
   add_truth(view, panel);
   panel.height = 90.0 + 85.0 * static_cast<double>(panel.y.categories.size());

@@ -58,6 +58,13 @@ std::string read_gap(const GapEstimate& g, const std::string& unit) {
   return "inconclusive";
 }
 
+/// "motor_inertia, contact_stiffness" as code.
+std::string given(const FitSummary& fit) {
+  std::vector<std::string> keys;
+  for (const std::string& key : fit.given()) keys.push_back("`" + key + "`");
+  return keys.empty() ? "no number of the drive" : fmt::format("{}", fmt::join(keys, ", "));
+}
+
 std::string estimate_rows(const RunResult& run, const DiagnosisResult* diagnosis) {
   const std::string unit = position_unit(run);
   std::string text = "| backlash gap 2β | value | 95 % interval | needed to know |\n|---|---|---|---|\n";
@@ -88,9 +95,11 @@ std::string estimate_rows(const RunResult& run, const DiagnosisResult* diagnosis
         row(fmt::format("the same at \\|u\\| = {}, {} ramps", rounded(l.amplitude), l.ramps), l.lost_motion,
             l.ci95, "");
   }
+  if (run.literal)
+    told("S1 to S6 as printed", read_gap(*run.literal, unit), {}, "motor position and a bound L");
   if (const FittedParameter* gap = parameter(run, "gap"))
     row(run.reference->rejected() ? "model-based reference (rejected)" : "model-based reference", gap->value,
-        run.reference->shown_interval(*gap), "motor position, input, equations and the given parameters");
+        run.reference->shown_interval(*gap), "motor position, input, equations and " + given(*run.reference));
   if (const std::optional<ModelGap> gap = diagnosis ? diagnosis->diagnosis.model_gap : std::nullopt;
       gap && gap->origin == GapOrigin::kEstimated && added(*diagnosis))
     row("model " + with_added(*diagnosis) + " (diagnosis)", gap->value, gap->ci95,

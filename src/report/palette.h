@@ -25,6 +25,7 @@ inline constexpr Colour kGrey{130, 130, 130};
 inline constexpr Colour kVermillion{213, 94, 0};
 inline constexpr Colour kBlue{0, 114, 178};
 inline constexpr Colour kGreen{0, 158, 115};
+inline constexpr Colour kPurple{170, 68, 153};
 inline constexpr Colour kGapShade{255, 236, 200};   ///< behind the gap mode
 inline constexpr Colour kBandShade{222, 233, 242};  ///< a 95 % band
 
@@ -32,6 +33,7 @@ inline constexpr Colour kBandShade{222, 233, 242};  ///< a 95 % band
 inline LineStyle measured_style() { return {kBlack, 4.5, {}}; }
 inline LineStyle truth_style() { return {kGrey, 5.0, {26, 10}}; }
 inline LineStyle model_free_style() { return {kVermillion, 4.5, {}}; }
+inline LineStyle literal_style() { return {kPurple, 4.5, {6, 7}}; }
 inline LineStyle reference_style() { return {kBlue, 4.5, {16, 9}}; }
 inline LineStyle input_style() { return {kGreen, 4.5, {}}; }
 inline LineStyle guide_style() { return {kFrame, 2.5, {4, 8}}; }

@@ -35,7 +35,7 @@ bool holds_wall_times(const fs::path& path) {
   try {
     const Json json = load_json(path.string());
     return json.is_object() && json.contains("model_free_s") && json.contains("reference_s") &&
-           json.size() == (json.contains("wall_s") ? 3 : 2);
+           json.size() == 2u + json.count("wall_s") + json.count("literal_s");
   } catch (const ConfigError&) {
     return false;
   }

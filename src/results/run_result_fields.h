@@ -257,6 +257,7 @@ void fields(Archive& archive, Document& d) {
   archive.seldom("input", d.run.input);
   archive.seldom("answer", d.run.answer);
   archive.part("model_free", d.run.model_free);
+  archive.seldom("literal", d.run.literal);
   archive.part("reference", d.run.reference);
   archive.part("comparison", d.run.comparison);
   archive.seldom("second_encoder", d.run.second_encoder);
@@ -274,6 +275,7 @@ void fields(Archive& archive, Timing& t) {
   archive("model_free_s", t.model_free_s);
   archive("reference_s", t.reference_s);
   archive.addition("wall_s", t.wall_s);
+  archive.addition("literal_s", t.literal_s);
 }
 
 }  // namespace gapscope::internal::results

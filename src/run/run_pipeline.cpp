@@ -129,6 +129,7 @@ void put_into_words(RunResult& r) {
   };
   if (r.model_free)
     put(r.model_free->reason), put(r.model_free->lost_motion.meaning), put_all(r.model_free->warnings);
+  if (r.literal) put(r.literal->reason), put_all(r.literal->warnings);
   if (r.reference)
     put(r.reference->message), put(r.reference->why), put_all(r.reference->warnings),
         put_all(r.reference->advice);
@@ -162,17 +163,32 @@ ErrorTrace at_recorded(const Recording& recorded, const Recording& grid, const E
   return trace;
 }
 
+std::vector<MotorTrace> traces_for_detector(const LoadedRecordings& grids,
+                                            const std::vector<Recording>& recordings) {
+  return grids.recordings.empty() ? traces_of(recordings) : grids.motor_traces();
+}
+
 /// The estimate of the grids, or of the recordings where there are none.
 GapEstimate model_free(const Configuration& c, const LoadedRecordings& grids,
                        const std::vector<Recording>& recordings, std::vector<std::string>& notes) {
-  if (grids.recordings.empty()) {
-    const std::vector<MotorTrace> traces = traces_of(recordings);
-    return detect_gap(traces, detector_options(c, traces, notes));
-  }
-  const std::vector<MotorTrace> traces = grids.motor_traces();
+  const std::vector<MotorTrace> traces = traces_for_detector(grids, recordings);
+  if (grids.recordings.empty()) return detect_gap(traces, detector_options(c, traces, notes));
   GapEstimate g = detect_gap(traces, detector_options(c, traces, notes));
   for (std::size_t i = 0; i < g.traces.size(); ++i)
     g.traces[i] = at_recorded(recordings[i], grids.recordings[i], g.traces[i]);
+  return g;
+}
+
+/// S1 to S6 as printed, beside the others: its numbers and passages, no figure of its own.
+GapEstimate literal(const Configuration& c, const LoadedRecordings& grids,
+                    const std::vector<Recording>& recordings) {
+  DetectorOptions options;
+  options.method = DetectorMethod::kLiteral;
+  options.encoder = c.encoder.side();
+  options.bound = *c.detector.literal;
+  GapEstimate g = detect_gap(traces_for_detector(grids, recordings), options);
+  g.traces.clear();
+  g.map.reset();
   return g;
 }
 
@@ -180,7 +196,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Both estimators, side by side where there are threads: neither knows of the other.
+/// The estimators, the model's beside the others where there are threads: none knows of another.
 void estimate(const Configuration& c, const Estimators& wanted, const LoadedRecordings& grids,
               const Progress& progress, int threads, RunOutcome& out) {
   RunResult& r = out.result;
@@ -194,6 +210,8 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
     if (which == 0 && wanted.model_free)
       r.model_free =
           timed(out.timing.model_free_s, [&] { return model_free(c, grids, r.recordings, notes); });
+    if (which == 0 && wanted.literal && c.detector.literal)
+      r.literal = timed(out.timing.literal_s, [&] { return literal(c, grids, r.recordings); });
     if (which == 1 && wanted.reference) try {
         r.reference = timed(out.timing.reference_s, fitted);
       } catch (const Interrupted&) {

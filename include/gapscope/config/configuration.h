@@ -22,6 +22,7 @@ struct DetectorConfig {
   DetectorMethod method = DetectorMethod::kAuto;
   std::optional<double> bound;               ///< [rad/s²]
   std::optional<BoundKnowledge> from_model;  ///< L by eq. (13)
+  std::optional<double> literal;             ///< L of S1 to S6 as printed, run beside the rest [rad/s²]
   int line = 0;
 };
 

@@ -131,6 +131,7 @@ struct FitSummary {
     return rejected() || status == FitStatus::kNotConverged ? Interval{} : p.ci95;
   }
   std::vector<std::string> at_bound() const;  ///< keys of the estimated numbers that stand at a bound
+  std::vector<std::string> given() const;     ///< keys of the numbers that it was told
   /// The fit leaves nothing of the gap, and the recordings are explained as well: the model says that there
   /// is none.
   bool closes_gap() const;

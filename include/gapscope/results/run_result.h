@@ -26,6 +26,7 @@ struct RunResult {
   Coordinates coordinates;                      ///< of a translation: rad and N·m mean m and N
   std::optional<Answer> answer;                 ///< absent in files that were written before it was stored
   std::optional<GapEstimate> model_free;        ///< absent: not asked for (`fit`)
+  std::optional<GapEstimate> literal = {};      ///< S1 to S6 as printed, beside these; absent: not asked for
   std::optional<FitSummary> reference;          ///< absent: not asked for (`detect`)
   std::optional<Comparison> comparison;         ///< absent unless both were asked for
   std::optional<SecondEncoder> second_encoder;  ///< absent unless one on the load validates
@@ -41,6 +42,7 @@ struct RunResult {
 /// Wall times; the only stored result that is not a function of input, seed and version.
 struct Timing {
   double model_free_s = kNaN;
+  double literal_s = kNaN;
   double reference_s = kNaN;
   double wall_s = kNaN;  ///< of both estimators, which run side by side: less than their sum
 };

@@ -13,10 +13,11 @@ namespace gapscope {
 /// tells.
 bool is_made_by_simulate(const std::string& path);
 
-/// Which of the two estimators a command asks for.
+/// Which of the estimators a command asks for.
 struct Estimators {
   bool model_free = true;
   bool reference = true;
+  bool literal = true;           ///< where `detector: literal:` gives it a bound
   bool reading_is_kept = false;  ///< where the reference is interrupted and the other has ended
 };
 
