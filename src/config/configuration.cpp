@@ -1,10 +1,13 @@
 #include "gapscope/config/configuration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <string_view>
 
 #include "config/anchor_reader.h"
 #include "config/configuration_reader.h"
@@ -14,6 +17,7 @@
 #include "config/field_reader.h"
 #include "config/file_facts.h"
 #include "config/going_on.h"
+#include "config/independent_effects.h"
 #include "config/model_reader.h"
 #include "config/setting.h"
 #include "config/yaml_document.h"
@@ -114,11 +118,14 @@ void read_data(const Section& root, const WrittenModel& model, Configuration& c)
   put_behind_gear(changes, {}, c.coordinates);
   c.simulation->plant = simulated_plant(overlaid(model, changes), *simulation);
   require_possible_start(c);
-  if (c.simulation->independent && !c.simulation->plant.effects.empty())
-    throw ConfigError(
-        c.file, c.simulation->plant.effects.front().line,
-        "simulation.plant is independent, which knows no effects of the catalogue, expected no effects or "
-        "plant: simulator");
+  if (c.simulation->independent)
+    for (const EffectConfig& e : c.simulation->plant.effects)
+      if (std::find(std::begin(kIndependentEffects), std::end(kIndependentEffects),
+                    std::string_view(e.effect.entry->name)) == std::end(kIndependentEffects))
+        throw ConfigError(
+            c.file, e.line,
+            fmt::format("simulation.plant is independent, which has no {}, expected {} or plant: simulator",
+                        e.effect.entry->name, fmt::join(kIndependentEffects, ", ")));
 }
 
 }  // namespace

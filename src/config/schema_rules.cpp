@@ -1,6 +1,7 @@
 #include "config/schema_rules.h"
 
 #include "config/controller_reader.h"
+#include "config/independent_effects.h"
 #include "config/model_reader.h"
 #include "config/schema_units.h"
 #include "gapscope/plant/effect.h"
@@ -69,12 +70,14 @@ void add_plant_rules(Json& c) {
   add_rule(where(simulated, any_of({either(locked), given("mass_ratio")})), c);
   add_rule(where(simulated, any_of({either(unloaded), given("gap")})), c);
   add_rule(where(simulated, any_of({either(unloaded), either(rigid), given("contact_stiffness")})), c);
-  const Json some = {{"minItems", 1}};
+  std::vector<Json> known;
+  for (const char* effect : kIndependentEffects) known.push_back(having(effect));
+  const Json other = {{"contains", none_of(known)}};
   add_rule(
       where(having("simulation.plant", being("independent")),
-            none_of({having("simulation.model.effects", some),
+            none_of({having("simulation.model.effects", other),
                      having("controller"),
-                     {{"allOf", {having("model.effects", some), lacking("simulation.model.effects")}}}})),
+                     {{"allOf", {having("model.effects", other), lacking("simulation.model.effects")}}}})),
       c);
 }
 

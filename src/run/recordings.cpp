@@ -13,6 +13,7 @@
 #include "gapscope/simulation/simulate.h"
 #include "independent_plant/simulate.h"
 #include "run/fastest_motion.h"
+#include "run/independent_effects.h"
 
 namespace gapscope {
 namespace {
@@ -70,6 +71,7 @@ independent_plant::BlindDrive independent_drive(const SimulationConfig& s) {
   d.gap = p.gap;
   d.contact_stiffness = p.contact_stiffness;
   d.contact_damping = p.contact_damping;
+  d.effects = internal::run::independent_effects(s.plant.effects);
   d.x1 = s.initial.x1, d.w1 = s.initial.w1;
   d.x2 = s.initial.x2, d.w2 = s.initial.w2;
   return d;

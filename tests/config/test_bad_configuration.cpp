@@ -83,8 +83,8 @@ const std::vector<BadConfig> kBadData = {
      "c.yaml:4: simulation.plant is 'mine', expected simulator or independent"},
     {"independent_with_effects",
      with(kSimulated, "  rate: 1000\n", "  rate: 1000\n  plant: independent\n") +
-         "  effects: [{motor_coulomb_friction: {level_nm: 0.01}}]\n",
-     "c.yaml:15: simulation.plant is independent"},
+         "  effects: [{motor_coulomb_friction: {level_nm: 0.01}}, {input_delay: {delay_s: 1.0e-3}}]\n",
+     "c.yaml:15: simulation.plant is independent, which has no input_delay, expected contact_adhesion, "},
     {"both", kSimulated + "recording: {file: a.csv}\n",
      "c.yaml:2: simulation stands beside recording (line 14)"},
     {"no_file", "name: a\nrecording: {window: [0, 1]}\n", "c.yaml:2: recording has no file"},
