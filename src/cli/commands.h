@@ -40,6 +40,8 @@ inline constexpr int kSpoiltRecording = 3;
 inline constexpr const char* kConfigHelp = "configuration (YAML)";
 
 /// In the help of every command that draws.
+inline constexpr const char* kUntitledHelp =
+    "figures for a paper: no title, letters of 8 pt at least at the width of its columns";
 inline constexpr const char* kSvgHelp = "each figure also as SVG, its text as text";
 inline constexpr const char* kReportFolderHelp =
     "folder of the report, new or with one of the same drive (default: reports/<name>)";

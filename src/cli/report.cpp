@@ -82,7 +82,7 @@ void add_report(CommandLine& app) {
   CommandLine command = app.add_command("report", "Draws a report again from its stored results");
   command.add_option("DIR", arguments->folder, "folder of a report").required();
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
-  command.add_flag("--no-title", arguments->untitled, "figures without their title: a paper has captions");
+  command.add_flag("--no-title", arguments->untitled, kUntitledHelp);
   command.add_flag("--small", arguments->figures.small,
                    "each figure at half the size and packed tightly, for a page or a mail");
   command.add_flag("--quiet", arguments->quiet, "no progress");

@@ -136,7 +136,8 @@ std::string draw_as_svg(const FigureData& figure) {
   const FigurePlan plan = plan_figure(figure, typesetter);
   SvgCanvas canvas(typesetter);
   paint(canvas, figure, plan, typesetter);
-  return canvas.document(figure.width, plan.height, plain_text(figure.title), plain_text(figure.reading));
+  return canvas.document(figure.width, plan.height, kColumnWidth / figure.column, plain_text(figure.title),
+                         plain_text(figure.reading));
 }
 
 std::string draw_for_page(const FigureData& figure) {
@@ -150,7 +151,7 @@ std::string draw_for_page(const FigureData& figure) {
     if (numbers) canvas.plot({plan.corners[i].x, plan.corners[i].y, p.width, p.height}, p.x, p.y);
   }
   return canvas.element(figure.width, plan.height, plain_text(figure.title),
-                        fmt::format(" style=\"--columns:{:.4g}\"", figure.width / kColumnPixels));
+                        fmt::format(" style=\"--columns:{:.4g}\"", figure.width / figure.column));
 }
 
 }  // namespace gapscope::internal::report

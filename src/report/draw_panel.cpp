@@ -35,8 +35,12 @@ class PanelPainter {
       const Box box{x, y, x_of(tile.x.high) - x, y_of(tile.y.low) - y};
       canvas_.fill(tile.text.empty() ? box : box.grown(-1.5), tile.colour);
       if (tile.text.empty()) continue;
-      canvas_.text({box.centre().x, box.centre().y + 0.36 * kTickSize}, tile.text,
+      const double above = tile.note.empty() ? 0.36 : -0.15, below = 0.98;
+      canvas_.text({box.centre().x, box.centre().y + above * kTickSize}, tile.text,
                    {kTickSize, Align::kCentre, tile.ink});
+      if (!tile.note.empty())
+        canvas_.text({box.centre().x, box.centre().y + below * kTickSize}, tile.note,
+                     {kTickSize, Align::kCentre, tile.ink});
     }
   }
 

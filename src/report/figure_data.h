@@ -57,6 +57,7 @@ struct Tile {
   Colour colour{};
   std::string text{};
   Colour ink = kInk;
+  std::string note{};  ///< smaller, under the text
 };
 
 struct Axis {
@@ -98,6 +99,7 @@ struct FigureData {
   std::vector<std::string> lines{};  ///< text under the title, wrapped
   double width = 1600.0;             ///< [px]
   double scale = 1.0;                ///< of the image: a sheet that is only looked at needs fewer pixels
+  double column = kColumnPixels;     ///< that fill a column of a journal [px]
   int columns = 1;
   std::vector<Panel> panels{};  ///< row by row
 };

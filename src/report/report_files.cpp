@@ -12,6 +12,7 @@
 #include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
+#include "report/panel_plan.h"
 #include "report/plain_markdown.h"
 #include "report/png_bytes.h"
 
@@ -20,8 +21,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the image: 1600 px at scale 1 are a column wide [1/m].
-double pixels_per_metre(const FigureData& figure) { return figure.scale * kColumnPixels / kColumnWidth; }
+/// Of the image [1/m].
+double pixels_per_metre(const FigureData& figure) { return figure.scale * figure.column / kColumnWidth; }
+
+/// Without its title, and laid out narrower for the same width on paper: its smallest letters are 8 pt.
+FigureData for_paper(FigureData figure) {
+  constexpr double kPoint = 0.0254 / 72.0;  // [m]
+  constexpr double kSmallest = kTickSize / kColumnPixels * kColumnWidth / kPoint;
+  constexpr double kNarrower = kSmallest / 8.0;
+  figure.title.clear();
+  figure.width *= kNarrower;
+  figure.column *= kNarrower;
+  figure.scale /= kNarrower;
+  return figure;
+}
 
 void write_bytes(const fs::path& path, const std::string& bytes) {
   write_whole_file(path.string(), [&](std::ostream& out) { out << bytes; });
@@ -77,8 +90,7 @@ void write_report_files(const std::string& folder, const std::vector<FigureData>
   parallel_for(figures.size(), 0, [&](std::size_t) {
     const std::size_t i = order[next++];
     if (!figures[i].missing.empty()) return;
-    FigureData figure = figures[i];
-    if (!formats.title) figure.title.clear();
+    const FigureData figure = formats.title ? figures[i] : for_paper(figures[i]);
     images[i] = formats.small ? small_picture(figure) : picture_bytes(figure);
     pictures[i] = {figures[i].file, draw_for_page(figures[i])};
     if (formats.svg) drawings[i] = draw_as_svg(figure);

@@ -138,9 +138,9 @@ std::string SvgCanvas::element(double width, double height, const std::string& t
          clips() + body_ + "</svg>\n";
 }
 
-std::string SvgCanvas::document(double width, double height, const std::string& title,
+std::string SvgCanvas::document(double width, double height, double pixel, const std::string& title,
                                 const std::string& reading) const {
-  const double centimetres = 100.0 * kColumnWidth / kColumnPixels;
+  const double centimetres = 100.0 * pixel;
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{}cm\" height=\"{}cm\" "

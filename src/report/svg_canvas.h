@@ -29,9 +29,10 @@ class SvgCanvas : public Canvas {
   /// @param more  attributes beside it
   std::string element(double width, double height, const std::string& title, const std::string& more) const;
 
-  /// @param width, height  of the paper [px]; kColumnPixels of them are kColumnWidth wide
+  /// @param width, height  of the paper [px]
+  /// @param pixel  how wide one is printed [m]
   /// @param title, reading  for those who cannot see the drawing
-  std::string document(double width, double height, const std::string& title,
+  std::string document(double width, double height, double pixel, const std::string& title,
                        const std::string& reading) const;
 
  private:
