@@ -99,15 +99,22 @@ std::string range_in_words(const std::vector<SummaryBin>& bins, const std::vecto
 }
 
 std::vector<SummaryAnswer> answers(const CampaignSummary& s) {
+  struct Asked {
+    const char* key;
+    bool asked;
+    Score score;
+  };
+  const Asked estimators[] = {{"literal", s.literal, &SummaryCell::literal},
+                              {"model_free", s.model_free, &SummaryCell::model_free},
+                              {"reference", s.reference, &SummaryCell::reference}};
   std::vector<SummaryAnswer> all;
   const auto& tables = s.pairs.empty() ? s.lines : s.pairs;
   for (const SummaryTable& table : tables)
     for (const Tolerance& tolerance : kTolerances)
-      for (const bool model_free : {true, false}) {
-        if (!(model_free ? s.model_free : s.reference)) continue;
-        const Score score = model_free ? &SummaryCell::model_free : &SummaryCell::reference;
+      for (const auto& [key, asked, score] : estimators) {
+        if (!asked) continue;
         const bool pair = table.b >= 0;
-        all.push_back({tolerance.value, model_free ? "model-free" : "reference",
+        all.push_back({tolerance.value, key,
                        pair ? s.axes[table.b].name + " by " + s.axes[table.a].name : s.axes[table.a].name,
                        pair ? needs_over_pair(s, table, score, tolerance.within)
                             : needs_over_line(s, table, score, tolerance.within)});

@@ -14,11 +14,17 @@ namespace {
 
 const std::map<std::string, AxisName>& plain_names() {
   static const std::map<std::string, AxisName> names = {
-      {"simulation.rate", {"sampling rate", "Hz"}}, {"simulation.duration", {"duration", "s"}},
-      {"simulation.noise", {"noise", "rad"}},       {"simulation.plant", {"plant code", ""}},
-      {"recording.file", {"recording", ""}},        {"recording.resample.rate", {"sampling rate", "Hz"}},
-      {"encoder.bits", {"resolution", "bit"}},      {"encoder.quantum", {"quantum", "rad"}},
+      {"simulation.rate", {"sampling rate", "Hz"}},
+      {"simulation.duration", {"duration", "s"}},
+      {"simulation.noise", {"noise", "rad"}},
+      {"simulation.plant", {"plant code", ""}},
+      {"recording.file", {"recording", ""}},
+      {"recording.resample.rate", {"sampling rate", "Hz"}},
+      {"encoder.bits", {"resolution", "bit"}},
+      {"encoder.quantum", {"quantum", "rad"}},
       {"detector.bound", {"bound L", "rad/s²"}},
+      {"detector.literal", {"L as printed", "rad/s²"}},
+      {"simulation.model.effects", {"what the plant has more", ""}},
   };
   return names;
 }
@@ -43,6 +49,12 @@ AxisName axis_name(const std::string& path, Coordinates coordinates) {
   if (const DriveParameterSpec* spec = drive_parameter_at(path)) {
     const std::string name = readable(spec->key);
     return {path.starts_with("model.") ? "model's " + name : name, coordinates.shown_unit(spec->unit)};
+  }
+  if (const std::size_t at = path.find("model.effects.");
+      at != path.npos) {  // "0.contact_adhesion.release_nm"
+    const std::string place = path.substr(at + 14),
+                      effect = place.substr(std::min(place.find('.') + 1, place.size()));
+    return {(path.starts_with("model.") ? "model's " : "") + effect, ""};
   }
   if (path.find("excitation.") != path.npos && path.ends_with(".frequency")) return {"frequency", "Hz"};
   if (path.find("excitation.") != path.npos && path.ends_with(".amplitude")) return {"amplitude", ""};

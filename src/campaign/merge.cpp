@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 struct Sameness {
   std::string text;
-  void operator()(const char*, std::string& value) { text += value + '\n'; }
-  void operator()(const char*, double& value) { text += fmt::format("{}\n", value); }
-  void operator()(const char*, std::optional<bool>& value) {
+  void operator()(const std::string&, std::string& value) { text += value + '\n'; }
+  void operator()(const std::string&, double& value) { text += fmt::format("{}\n", value); }
+  void operator()(const std::string&, std::optional<bool>& value) {
     text += !value ? "-\n" : *value ? "1\n" : "0\n";
   }
 };

@@ -11,10 +11,12 @@
 
 #include "campaign/recorded_data.h"
 #include "campaign/store_header.h"
+#include "campaign/told.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
 #include "gapscope/run/run_pipeline.h"
+#include "gapscope/sliding_mode/bound_bank.h"
 
 namespace gapscope {
 namespace {
@@ -25,35 +27,79 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-void note_model_free(const GapEstimate& g, CampaignRow& row) {
-  row.verdict = to_string(g.verdict);
-  row.reason = g.reason.text();
-  row.reason_codes = g.reason.codes();
-  row.gap = g.gap;
-  row.std = g.std;
-  row.ci95 = g.ci95;
+/// A bound is no gap, nor is a play at zero torque, nor the first of several gaps.
+bool tells_the_gap(const GapEstimate& g) {
+  const bool has_interval = std::isfinite(g.ci95.low) && std::isfinite(g.ci95.high);
+  return g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kGap &&
+         (g.method == GapMethod::kLiteral || has_interval);
+}
+
+/// @param bound   that it was given; nothing: it takes its own from the recording
+/// @param passes  differentiators that it runs over the recording
+CampaignEstimate noted(const GapEstimate& g, const std::optional<double>& bound, double passes) {
+  const bool found = g.verdict == GapVerdict::kBacklash;
+  CampaignEstimate e;
+  e.outcome = to_string(g.verdict);
+  e.answers = tells_the_gap(g);
+  e.reason = g.reason.text();
+  e.reason_codes = g.reason.codes();
+  e.gap = g.gap;
+  e.std = g.std;
+  e.ci95 = g.ci95;
+  if (found) e.quantity = to_string(g.quantity);
+  e.method = to_string(g.method);
+  e.trust = to_string(g.trust);
+  if (bound) e.told = fmt::format("L = {:.4g} rad/s^2", *bound);
+  e.passes = passes;
+  return e;
+}
+
+void note_model_free(const GapEstimate& g, const Configuration& c, CampaignRow& row) {
+  row.model_free = noted(g, c.detector.bound, g.by_one_bound() ? 1.0 : static_cast<double>(kBankBounds));
   row.smallest_visible_gap = g.smallest_visible_gap;
+  row.gap_at_most = g.gap_at_most;
   row.events = static_cast<double>(
       std::count_if(g.events.begin(), g.events.end(), [](const GapEvent& e) { return e.accepted; }));
 }
 
-void note_reference(const FitSummary& f, CampaignRow& row) {
-  row.status = f.status == FitStatus::kConverged ? "converged"
-               : f.status == FitStatus::kFailed  ? "failed"
-                                                 : "not_converged";
-  row.reference_trust = to_string(f.trust);
-  row.rmse = f.rmse;
+CampaignEstimate noted(const FitSummary& f, const Configuration& c) {
+  CampaignEstimate e;
+  e.outcome = f.status == FitStatus::kConverged ? "converged"
+              : f.status == FitStatus::kFailed  ? "failed"
+                                                : "not_converged";
+  e.reason = f.why.text();
+  e.reason_codes = f.why.codes();
+  e.method = "fit";
+  e.trust = to_string(f.trust);
+  e.told = internal::campaign::told_to(f, c);
+  e.passes = static_cast<double>(f.simulations);
+  e.answers = false;
   const FittedParameter* gap = f.find("gap");
-  if (gap == nullptr) return;
-  row.reference_gap = gap->value;
-  row.reference_std = gap->std;
-  row.reference_ci95 = gap->ci95;
+  if (gap == nullptr) return e;
+  e.gap = gap->value;
+  e.std = gap->std;
+  e.ci95 = gap->ci95;
+  e.quantity = to_string(GapQuantity::kGap);
+  const Interval shown = f.shown_interval(*gap);
+  e.answers = f.converged() && gap->estimated && std::isfinite(shown.low) && std::isfinite(shown.high);
+  return e;
 }
 
-void note_result(const RunResult& r, CampaignRow& row) {
+void note_result(const RunResult& r, const Configuration& c, CampaignRow& row) {
+  row.data = internal::campaign::data_of(r.recordings);
+  row.samples = row.recorded = 0.0;
+  for (const Recording& recording : r.recordings) {
+    row.samples += static_cast<double>(recording.size());
+    row.recorded += recording.duration();
+  }
   row.true_gap = r.simulated_gap;
-  if (r.model_free) note_model_free(*r.model_free, row);
-  if (r.reference) note_reference(*r.reference, row);
+  if (r.literal) row.literal = noted(*r.literal, c.detector.literal, 1.0);
+  if (r.model_free) note_model_free(*r.model_free, c, row);
+  if (r.reference) {
+    row.reference = noted(*r.reference, c);
+    row.rmse = r.reference->rmse;
+    row.lacks = internal::campaign::lacked_by_model(c);
+  }
   if (!r.comparison) return;
   row.difference = r.comparison->difference;
   row.joint_std = r.comparison->joint_std;
@@ -103,9 +149,11 @@ CampaignRow run_of_campaign(const CampaignConfig& c, std::uint64_t run, Campaign
     row.configuration = resolved_yaml(configuration);
     row.seed =
         fmt::format("{}", configuration.simulation ? configuration.simulation->seed : configuration.fit.seed);
-    const RunOutcome outcome =
-        run_pipeline(configuration, {c.model_free, c.reference}, [](const std::string&) {});
-    note_result(outcome.result, row);
+    const RunOutcome outcome = run_pipeline(
+        configuration, {.model_free = c.model_free, .reference = c.reference, .literal = c.literal},
+        [](const std::string&) {});
+    note_result(outcome.result, configuration, row);
+    timing.literal_s = outcome.timing.literal_s;
     timing.model_free_s = outcome.timing.model_free_s;
     timing.reference_s = outcome.timing.reference_s;
   } catch (const Interrupted&) {

@@ -3,23 +3,40 @@
 #include <vector>
 
 #include "gapscope/campaign/row.h"
+#include "gapscope/campaign/store.h"
 #include "gapscope/campaign/summary.h"
 
 namespace gapscope::internal::campaign {
 
+/// Takes the estimates of one estimator and says how it did.
+class EstimatorScorer {
+ public:
+  void add(const CampaignEstimate& estimate, double true_gap);
+  EstimatorScore score() const;
+
+ private:
+  void judge(const CampaignEstimate& estimate, double true_gap);
+
+  EstimatorScore counts_;
+  std::vector<double> errors_, widths_, scores_, passes_;  ///< relative, errors signed
+};
+
 /// Takes rows one by one and says how the estimators did in all of them.
 class Scorer {
  public:
-  /// @param model_free, reference  which of both were asked
-  Scorer(bool model_free, bool reference) : model_free_(model_free), reference_(reference) {}
+  /// @param header  which of them were asked
+  explicit Scorer(const CampaignHeader& header) : header_(header) {}
 
   void add(const CampaignRow& row);
   SummaryCell cell() const;
 
  private:
-  bool model_free_, reference_;
+  CampaignHeader header_;
   SummaryCell counts_;
-  std::vector<double> model_free_errors_, reference_errors_;  ///< signed, relative
+  EstimatorScorer literal_, model_free_, reference_;
 };
+
+/// The median's 95 % interval by order statistics, whatever the distribution; NaN for fewer than 6 values.
+Interval median_ci95(std::vector<double> values);
 
 }  // namespace gapscope::internal::campaign

@@ -84,8 +84,7 @@ std::string made(const std::string& folder) {
   return folder;
 }
 
-/// "INSERT OR REPLACE INTO timing (run, ...) VALUES (?, ...)": columns that were added later stand where they
-/// were added.
+/// "INSERT OR REPLACE INTO timing (run, ...) VALUES (?, ...)"
 std::string insertion(const char* into, const std::vector<std::string>& columns) {
   std::vector<std::string> names;
   for (const std::string& column : columns) names.push_back(internal::campaign::quoted_name(column));
@@ -96,7 +95,7 @@ std::string insertion(const char* into, const std::vector<std::string>& columns)
 struct Binder {
   SqlStatement& to;
   template <class T>
-  void operator()(const char*, T& value) {
+  void operator()(const std::string&, T& value) {
     to.bind(value);
   }
 };
@@ -104,22 +103,20 @@ struct Binder {
 struct ColumnReader {
   SqlStatement& from;
   template <class T>
-  void operator()(const char*, T& value) {
+  void operator()(const std::string&, T& value) {
     from.read(value);
   }
 };
 
-std::string selection(Database& database, const CampaignHeader& header, bool configurations) {
-  const std::vector<std::string> missing = internal::campaign::missing_columns(database);
+std::string selection(const CampaignHeader& header, bool configurations) {
   std::vector<std::string> columns;
   for (const std::string& name : internal::campaign::run_columns(header)) {
-    const bool left_out = (name == "configuration" && !configurations) || contains(missing, name);
+    const bool left_out = name == "configuration" && !configurations;
     columns.push_back(left_out ? "''" : "runs." + internal::campaign::quoted_name(name));
   }
-  return fmt::format(
-      "SELECT {}, model_free_s, reference_s, run_s FROM runs LEFT JOIN timing ON timing.run = runs.run ORDER "
-      "BY runs.run",
-      fmt::join(columns, ", "));
+  for (const std::string& name : internal::campaign::timing_columns()) columns.push_back(name);
+  return fmt::format("SELECT {} FROM runs LEFT JOIN timing ON timing.run = runs.run ORDER BY runs.run",
+                     fmt::join(columns, ", "));
 }
 
 /// Before anything is changed in what may be another's.
@@ -166,15 +163,16 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignHeader& he
     internal::campaign::create_tables(database, header);  // all at once: a kill leaves an empty file, or all
   else
     require_same(database, header);
-  internal::campaign::add_columns(database, internal::campaign::missing_columns(database));
   database.write_whole();
   database.execute("PRAGMA journal_mode = WAL");
   database.execute("PRAGMA synchronous = NORMAL");
   connection_->insert_run = std::make_unique<SqlStatement>(
       database, insertion("INSERT INTO runs", internal::campaign::run_columns(header)));
+  std::vector<std::string> timing = {"run"};
+  for (const std::string& name : internal::campaign::timing_columns()) timing.push_back(name);
   // Of a run whose row was lost the time may still be there.
-  connection_->insert_timing = std::make_unique<SqlStatement>(
-      database, insertion("INSERT OR REPLACE INTO timing", {"run", "model_free_s", "reference_s", "run_s"}));
+  connection_->insert_timing =
+      std::make_unique<SqlStatement>(database, insertion("INSERT OR REPLACE INTO timing", timing));
 }
 
 CampaignStore::CampaignStore(const std::string& folder)
@@ -196,9 +194,9 @@ std::set<std::uint64_t> CampaignStore::done() const {
   return runs;
 }
 
-void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,
+void CampaignStore::each(const std::function<void(CampaignRow&, CampaignTiming&)>& visit,
                          bool configurations) const {
-  SqlStatement select(connection_->database, selection(connection_->database, header_, configurations));
+  SqlStatement select(connection_->database, selection(header_, configurations));
   ColumnReader reader{select};
   while (select.step()) {
     stop_point();
@@ -212,14 +210,12 @@ void CampaignStore::each(const std::function<void(CampaignRow&, const CampaignTi
     row.point.resize(header_.axes.size() + header_.drawn.size());
     for (std::string& value : row.point) select.read(value);
     fields(reader, row);
-    select.read(timing.model_free_s);
-    select.read(timing.reference_s);
-    select.read(timing.run_s);
+    fields(reader, timing);
     visit(row, timing);
   }
 }
 
-void CampaignStore::add(CampaignRow row, const CampaignTiming& timing) {
+void CampaignStore::add(CampaignRow row, CampaignTiming timing) {
   GAPSCOPE_REQUIRE(connection_->insert_run != nullptr);
   GAPSCOPE_REQUIRE(row.point.size() == header_.axes.size() + header_.drawn.size());
   const std::lock_guard lock(connection_->mutex);
@@ -232,9 +228,8 @@ void CampaignStore::add(CampaignRow row, const CampaignTiming& timing) {
   run.execute();
   SqlStatement& time = *connection_->insert_timing;
   time.bind(static_cast<std::int64_t>(row.run));
-  time.bind(timing.model_free_s);
-  time.bind(timing.reference_s);
-  time.bind(timing.run_s);
+  Binder time_binder{time};
+  fields(time_binder, timing);
   time.execute();
   connection_->database.execute("COMMIT");
 }

@@ -21,6 +21,7 @@ CampaignHeader campaign_header(const CampaignConfig& c, const CampaignShard& sha
   h.name = c.name;
   h.identity = campaign_identity(c) + internal::campaign::recorded_data(c);
   h.coordinates = campaign_run(c, 0).coordinates;
+  h.literal = c.literal;
   h.model_free = c.model_free;
   h.reference = c.reference;
   h.runs = c.runs();
@@ -34,7 +35,7 @@ namespace internal::campaign {
 namespace {
 
 constexpr double kMostShards = 9e15;  // a double still holds it exactly
-constexpr const char* kSchema = "gapscope.campaign/1";
+constexpr const char* kSchema = "gapscope.campaign/2";
 
 std::string joined(const std::vector<AxisValue>& values) {
   std::vector<std::string> texts;
@@ -131,9 +132,9 @@ void read_axes(Database& database, const std::string& file, CampaignHeader& h) {
 /// Collects the names of the fields of a row with the type of their columns.
 struct FieldNames {
   std::vector<std::string> names;
-  void operator()(const char* name, std::string&) { names.emplace_back(name); }
-  void operator()(const char* name, double&) { names.emplace_back(name); }
-  void operator()(const char* name, std::optional<bool>&) { names.emplace_back(name); }
+  void operator()(const std::string& name, std::string&) { names.emplace_back(name); }
+  void operator()(const std::string& name, double&) { names.emplace_back(name); }
+  void operator()(const std::string& name, std::optional<bool>&) { names.emplace_back(name); }
 };
 
 bool has_tables(Database& database) {
@@ -153,6 +154,13 @@ std::vector<std::string> run_columns(const CampaignHeader& header) {
   return collect.names;
 }
 
+std::vector<std::string> timing_columns() {
+  FieldNames collect;
+  CampaignTiming timing;
+  fields(collect, timing);
+  return collect.names;
+}
+
 bool is_empty(Database& database) {
   SqlStatement count(database, "PRAGMA page_count");
   std::int64_t pages = 0;
@@ -166,8 +174,9 @@ void create_tables(Database& database, const CampaignHeader& h) {
   database.execute(
       "CREATE TABLE axes (path TEXT, kind TEXT, logarithmic INTEGER, low REAL, high REAL, count INTEGER, "
       "listed TEXT)");
-  database.execute(
-      "CREATE TABLE timing (run INTEGER PRIMARY KEY, model_free_s REAL, reference_s REAL, run_s REAL)");
+  std::string times;
+  for (const std::string& name : timing_columns()) times += ", " + name + " REAL";
+  database.execute("CREATE TABLE timing (run INTEGER PRIMARY KEY" + times + ")");
   std::string columns;
   for (const std::string& name : run_columns(h))
     columns += name == "run" ? "run INTEGER PRIMARY KEY" : ", " + quoted_name(name);
@@ -177,10 +186,7 @@ void create_tables(Database& database, const CampaignHeader& h) {
   write_fact(database, "name", h.name);
   write_fact(database, "identity", h.identity);
   write_fact(database, "coordinates", h.coordinates.name());
-  write_fact(database, "estimators",
-             h.model_free && h.reference ? "both"
-             : h.model_free              ? "model_free"
-                                         : "reference");
+  write_fact(database, "estimators", estimator_names(h.literal, h.model_free, h.reference));
   write_fact(database, "runs", fmt::format("{}", h.runs));
   write_fact(database, "shard", fmt::format("{}", h.shard.number));
   write_fact(database, "shards", fmt::format("{}", h.shard.of));
@@ -200,8 +206,9 @@ CampaignHeader read_header(Database& database, const std::string& file) {
   h.coordinates =
       fact(database, file, "coordinates") == "rotation" ? Coordinates::kRotation : Coordinates::kTranslation;
   const std::string estimators = fact(database, file, "estimators");
-  h.model_free = estimators != "reference";
-  h.reference = estimators != "model_free";
+  h.literal = estimators.find("literal") != estimators.npos;
+  h.model_free = estimators.find("model_free") != estimators.npos;
+  h.reference = estimators.find("reference") != estimators.npos;
   h.runs = number_fact(database, file, "runs", kMostCampaignRuns);
   h.shard = {number_fact(database, file, "shard", kMostShards),
              number_fact(database, file, "shards", kMostShards)};
@@ -210,20 +217,6 @@ CampaignHeader read_header(Database& database, const std::string& file) {
         file, fmt::format("holds shard {}, expected a number up to {}", to_string(h.shard), h.shard.of));
   read_axes(database, file, h);
   return h;
-}
-
-std::vector<std::string> missing_columns(Database& database) {
-  std::vector<std::string> missing;
-  for (const std::string name : kAddedColumns) {
-    SqlStatement select(database, "SELECT name FROM pragma_table_info('runs') WHERE name = ?");
-    select.bind(name);
-    if (!select.step()) missing.push_back(name);
-  }
-  return missing;
-}
-
-void add_columns(Database& database, const std::vector<std::string>& names) {
-  for (const std::string& name : names) database.execute("ALTER TABLE runs ADD COLUMN " + quoted_name(name));
 }
 
 std::string header_difference(const CampaignHeader& stored, const CampaignHeader& wanted) {

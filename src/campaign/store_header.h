@@ -19,9 +19,7 @@ CampaignHeader read_header(Database& database, const std::string& file);
 /// Names of the columns of `runs`: run, axes, drawn, fields of a row.
 std::vector<std::string> run_columns(const CampaignHeader& header);
 
-/// Which of kAddedColumns `runs` has not, as in stores that were made before them.
-std::vector<std::string> missing_columns(Database& database);
-void add_columns(Database& database, const std::vector<std::string>& names);
+std::vector<std::string> timing_columns();  ///< of `timing`, without the run
 
 /// What tells two campaigns apart, "" if nothing does; the shard is not looked at.
 /// @param stored, wanted  as the sentence calls them

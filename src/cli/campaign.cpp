@@ -27,7 +27,7 @@ struct CampaignArguments {
   int threads = 0;
   std::string shard;
   bool dry_run = false;
-  bool quiet = false;
+  bool quiet = false, untitled = false;
   FigureFormats figures;
 };
 
@@ -105,15 +105,14 @@ void report_whole(ReportFolder& report, const std::string& folder, const Campaig
   const bool whole = summary.done >= summary.runs;
   if (whole) {
     write_campaign_summary(report.path(), summary);
+    write_campaign_times(report.path(), times_of(CampaignStore(folder)));
     write_campaign_report(report.path(), figures);
   }
   stop_point();
   report.commit();
   if (!whole) return;
   say("report", folder + "/report.html");
-  for (const SummaryAnswer& a : summary.answers)
-    if (a.tolerance == 0.02)  // the other tolerances are in the report
-      say(a.estimator.c_str(), fmt::format("for at most 2 %, {}: {}", a.parameters, a.needs));
+  for (const std::string& line : which_estimator(summary)) fmt::print("{}\n", line);
 }
 
 CampaignSummary run_and_summarise(const CampaignConfig& c, const CampaignShard& shard,
@@ -142,14 +141,22 @@ void run(const CampaignArguments& a) {
 
 void add_export(CommandLine& campaign) {
   auto folder = std::make_shared<std::string>();
+  auto times = std::make_shared<bool>(false);
   CommandLine command = campaign.add_command("export", "The runs of a campaign as CSV on standard output");
   command.add_option("DIR", *folder, "folder of a campaign").required();
+  command.add_flag("--times", *times,
+                   "with the wall times of each run, which differ from machine to machine");
   command.footer(
-      "One row per run, in the order of the runs, whatever order they finished in; no wall times. Gaps in "
-      "rad.\n\n"
+      "One row per run, in the order of the runs, whatever order they finished in; no wall times unless "
+      "asked "
+      "for.\n"
+      "Of each estimator (literal, model_free, reference): whether it answers, gap, interval [rad], "
+      "quantity, "
+      "method,\n"
+      "trust, what it was told of the drive, and its passes over the recording.\n\n"
       "Example: gapscope campaign export reports/sampling_resolution > runs.csv");
-  command.action([folder] {
-    export_campaign(CampaignStore(*folder), [](const std::string& text) { fmt::print("{}", text); });
+  command.action([folder, times] {
+    export_campaign(CampaignStore(*folder), *times, [](const std::string& text) { fmt::print("{}", text); });
   });
 }
 
@@ -202,6 +209,7 @@ void add_campaign(CommandLine& app) {
   command.add_option("--shard", a->shard, "only part K of N, into a folder of its own").value("K/N");
   command.add_flag("--dry-run", a->dry_run, "number of runs, time, and the first three configurations");
   command.add_flag("--svg", a->figures.svg, kSvgHelp);
+  command.add_flag("--no-title", a->untitled, kUntitledHelp);
   add_work_options(command, a->threads, a->quiet);
   command.may_have_command();
   command.footer(
@@ -213,7 +221,8 @@ void add_campaign(CommandLine& app) {
       "seed: first}\n"
       "  drawn         {path: {uniform: [low, high]}} or log_uniform: a number of its own for each run\n"
       "  sampling      full_factorial (default) or {latin_hypercube: {samples: n, seed: s}}\n"
-      "  estimators    [model_free, reference] (default: both)\n\n"
+      "  estimators    [literal, model_free, reference] (default: all; literal, S1 to S6 of the paper as\n"
+      "                printed, where the base or an axis has its bound, detector: {literal: L})\n\n"
       "Writes DIR/results.sqlite, a row per run as it finishes, and at the end campaign.json, report.md and "
       "figures.\n"
       "Stopped or killed, the same command goes on.\n\n"
@@ -224,6 +233,7 @@ void add_campaign(CommandLine& app) {
   command.action([command, a] {
     if (command.has_command()) return;
     if (a->config.empty()) throw_missing("CONFIG");
+    a->figures.title = !a->untitled;
     run(*a);
   });
 }

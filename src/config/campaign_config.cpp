@@ -52,11 +52,11 @@ void read_sampling(const Value& value, CampaignConfig& c) {
 }
 
 void read_estimators(const Value& value, CampaignConfig& c) {
-  c.model_free = c.reference = false;
-  for (const Value& item : value.items())
-    (item.word({"model_free", "reference"}) == 0 ? c.model_free : c.reference) = true;
-  if (!c.model_free && !c.reference)
-    value.fail("is an empty list, expected model_free, reference or both of them");
+  c.literal = c.model_free = c.reference = false;
+  bool* const asked[] = {&c.literal, &c.model_free, &c.reference};
+  for (const Value& item : value.items()) *asked[item.word({"literal", "model_free", "reference"})] = true;
+  if (!c.literal && !c.model_free && !c.reference)
+    value.fail("is an empty list, expected some of literal, model_free and reference");
 }
 
 /// No path twice, and none within another one: what is written would depend on the order.
@@ -132,6 +132,11 @@ CampaignConfig read_campaign(const std::string& text, const std::string& file) {
   try {
     const Configuration first = campaign_run(c, 0);
     if (c.reference) require_reference_model(first);
+    const bool has_bound = first.detector.literal.has_value();
+    if (const auto estimators = root.find("estimators"); estimators && c.literal && !has_bound)
+      estimators->fail(
+          "names literal, expected detector: {literal: L}, its bound [rad/s^2], in the base or an axis");
+    c.literal = c.literal && has_bound;
   } catch (const ConfigError& error) {
     throw ConfigError(file, line_to_blame(c, *root.find("axes")),
                       fmt::format("the first run cannot be made: {}", error.what()));
@@ -163,10 +168,16 @@ CampaignConfig load_campaign(const std::string& path) {
   return internal::config::read_campaign(internal::config::read_text(path), path);
 }
 
+std::string estimator_names(bool literal, bool model_free, bool reference) {
+  std::vector<std::string> names;
+  if (literal) names.emplace_back("literal");
+  if (model_free) names.emplace_back("model_free");
+  if (reference) names.emplace_back("reference");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string campaign_identity(const CampaignConfig& c) {
-  std::string text = fmt::format("estimators: {}\n", c.model_free && c.reference ? "model_free, reference"
-                                                     : c.model_free              ? "model_free"
-                                                                                 : "reference");
+  std::string text = fmt::format("estimators: {}\n", estimator_names(c.literal, c.model_free, c.reference));
   text += c.hypercube ? fmt::format("sampling: latin_hypercube of {} samples, seed {}\n",
                                     c.hypercube->samples, c.hypercube->seed)
                       : std::string("sampling: full_factorial\n");

@@ -14,13 +14,6 @@ constexpr double kAside = 0.04;
 
 using Number = double (*)(const EstimatorScore&);
 
-Axis axis_of(const SummaryAxis& axis) {
-  Axis x{literal(axis.name), "", {-0.4, static_cast<double>(axis.bins.size()) - 0.6}, {}, {}, {}};
-  for (std::size_t i = 0; i < axis.bins.size(); ++i)
-    x.places.push_back({static_cast<double>(i), literal(axis.bins[i].label)});
-  return x;
-}
-
 /// One line per estimator, a point per value of the axis.
 std::vector<Series> series_of(const CampaignSummary& s, const SummaryTable& table, Number number) {
   std::vector<Series> all;
@@ -29,7 +22,7 @@ std::vector<Series> series_of(const CampaignSummary& s, const SummaryTable& tabl
     line.label = e.name;
     line.style = e.style;
     line.marker = e.marker;
-    const double aside = all.empty() ? -kAside : kAside;  // so that no mark hides the other
+    const double aside = kAside * static_cast<double>(all.size());  // so that no mark hides the other
     for (const SummaryCell& cell : table.cells) {
       line.x.push_back(cell.a + aside);
       line.y.push_back(number(cell.*(e.score)));
@@ -42,7 +35,7 @@ std::vector<Series> series_of(const CampaignSummary& s, const SummaryTable& tabl
 Panel panel(const std::string& title, const SummaryAxis& axis, const std::string& y_name) {
   Panel p;
   p.title = title;
-  p.x = axis_of(axis);
+  p.x = campaign_axis(axis, {0.4, 0.4});
   p.y = {y_name, "%", {}, {}, {}, {}};
   p.height = 420.0;
   return p;
@@ -50,12 +43,13 @@ Panel panel(const std::string& title, const SummaryAxis& axis, const std::string
 
 double log_percent(double error) { return error > 0.0 ? std::log10(100.0 * error) : kNaN; }
 
-/// Decades of percent, with the error that half of the runs and that nine in ten do not exceed.
-Panel error_panel(const CampaignSummary& s, const SummaryTable& table) {
-  Panel p = panel("Error: median and 90 % limit", s.axes[table.a], "|error|");
-  p.series = series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.median_error); });
-  for (Series& high : series_of(s, table, [](const EstimatorScore& e) { return log_percent(e.error_90); })) {
-    high.label += ", 90 % of the runs below";
+/// Decades of percent: a solid line with marks, and a thinner one beyond it.
+Panel decades_panel(const CampaignSummary& s, const SummaryTable& table, const std::string& title,
+                    const std::string& y_name, Number first, Number second, const std::string& second_name) {
+  Panel p = panel(title, s.axes[table.a], y_name);
+  p.series = series_of(s, table, first);
+  for (Series& high : series_of(s, table, second)) {
+    high.label += second_name;
     high.style.width = 2.0;
     high.marker = Marker::kNone;
     p.series.push_back(std::move(high));
@@ -64,9 +58,40 @@ Panel error_panel(const CampaignSummary& s, const SummaryTable& table) {
   for (const Series& line : p.series)
     for (const double y : line.y)
       if (std::isfinite(y)) range = {std::min(range.low, std::floor(y)), std::max(range.high, std::ceil(y))};
+  std::erase_if(p.series, [](const Series& line) {
+    return std::none_of(line.y.begin(), line.y.end(), [](double y) { return std::isfinite(y); });
+  });
   p.y.range = {range.low - 0.1, std::max(1.0, range.high) + 0.1};
   for (double decade = range.low; decade <= std::max(1.0, range.high); ++decade)
     p.y.places.push_back({decade, fmt::format("{:g}", std::pow(10.0, decade))});
+  return p;
+}
+
+Panel error_panel(const CampaignSummary& s, const SummaryTable& table) {
+  return decades_panel(
+      s, table, "Error: median and 90 % limit", "|error|",
+      [](const EstimatorScore& e) { return log_percent(e.median_error); },
+      [](const EstimatorScore& e) { return log_percent(e.error_90); }, ", 90 % of the runs below");
+}
+
+Panel interval_panel(const CampaignSummary& s, const SummaryTable& table) {
+  return decades_panel(
+      s, table, "95 % interval: median width, mean score", "of the gap",
+      [](const EstimatorScore& e) { return log_percent(e.median_width); },
+      [](const EstimatorScore& e) { return log_percent(e.interval_score); }, ", score");
+}
+
+/// With the 95 % intervals of the medians.
+Panel bias_panel(const CampaignSummary& s, const SummaryTable& table) {
+  Panel p = panel("Bias: median of the signed error, 95 % interval", s.axes[table.a], "error");
+  p.series = series_of(s, table, [](const EstimatorScore& e) { return 100.0 * e.bias; });
+  const auto estimators = estimators_of(s);
+  for (std::size_t k = 0; k < p.series.size(); ++k)
+    for (const SummaryCell& cell : table.cells) {
+      const Interval& ci = (cell.*(estimators[k].score)).bias_ci;
+      p.series[k].y_intervals.push_back({100.0 * ci.low, 100.0 * ci.high});
+    }
+  p.y_marks.push_back({0.0, guide_style(), ""});
   return p;
 }
 
@@ -87,12 +112,18 @@ Panel coverage_panel(const CampaignSummary& s, const SummaryTable& table) {
   for (std::size_t k = 0; k < p.series.size(); ++k)
     for (const SummaryCell& cell : table.cells) {
       const EstimatorScore& e = cell.*(estimators[k].score);
-      const Interval limits = e.judged > 0 ? wilson(e.covered, e.judged) : Interval{};
+      const Interval limits = e.claimed > 0 ? wilson(e.covered, e.claimed) : Interval{};
       p.series[k].y_intervals.push_back({100.0 * limits.low, 100.0 * limits.high});
       lowest = std::fmin(lowest, 100.0 * limits.low);
     }
   p.y.range.low = 10.0 * std::floor(lowest / 10.0) - 4.0;
   return p;
+}
+
+bool has_data(const Panel& p) {
+  return std::any_of(p.series.begin(), p.series.end(), [](const Series& line) {
+    return std::any_of(line.y.begin(), line.y.end(), [](double y) { return std::isfinite(y); });
+  });
 }
 
 /// "falls from 3 % at 250 Hz to 0.4 % at 8 kHz"
@@ -122,12 +153,17 @@ FigureData campaign_line(const CampaignSummary& s, const SummaryTable& table) {
   figure.title = literal(s.name) + ": along the " + literal(axis.name);
   figure.width = 3200.0;
   figure.columns = 2;
-  figure.panels = {error_panel(s, table),
-                   share_panel("No answer", s, table, "share of the runs",
-                               [](const EstimatorScore& e) { return 100.0 * e.refusal(); }),
-                   panel("Bias: median of the signed error", axis, "error"), coverage_panel(s, table)};
-  figure.panels[2].series = series_of(s, table, [](const EstimatorScore& e) { return 100.0 * e.bias; });
-  figure.panels[2].y_marks.push_back({0.0, guide_style(), ""});
+  if (const std::string key = campaign_key(axis); !key.empty()) figure.lines = {key};
+  figure.panels = {
+      error_panel(s, table),
+      share_panel("No answer", s, table, "share of the runs",
+                  [](const EstimatorScore& e) { return 100.0 * e.refusal(); }),
+      bias_panel(s, table),
+      coverage_panel(s, table),
+      interval_panel(s, table),
+      share_panel("Within 5 % of the true gap", s, table, "share of the runs",
+                  [](const EstimatorScore& e) { return e.runs > 0 ? 100.0 * e.within_5 / e.runs : kNaN; })};
+  std::erase_if(figure.panels, [](const Panel& p) { return !has_data(p); });
   std::vector<std::string> courses;
   for (const CampaignEstimator& e : estimators_of(s)) courses.push_back(course(s, table, e));
   figure.reading = fmt::format("All other axes taken together. {}.", fmt::join(courses, "; "));

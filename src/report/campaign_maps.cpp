@@ -15,8 +15,12 @@ namespace {
 struct Shown {
   double value = kNaN;  ///< a share
   double badness = kNaN;
+  int of = 0;  ///< runs that it is of
 };
 using Look = Shown (*)(const EstimatorScore&);
+
+constexpr double kSheetWidth =
+    3180.0;  ///< of two columns of a journal, in which two or three maps stand [px]
 
 constexpr Colour kNothing{214, 214, 214};
 constexpr Colour kDark{8, 48, 107};
@@ -32,10 +36,18 @@ Colour shade_of(double badness) {
 /// White at 0.1 %, dark at 20 %, by the logarithm.
 Shown error_look(const EstimatorScore& e) {
   const double decades = std::log10(std::max(e.median_error, 1e-12) / 1e-3) / std::log10(0.2 / 1e-3);
-  return {e.median_error, std::isnan(e.median_error) ? kNaN : std::clamp(decades, 0.0, 1.0)};
+  return {e.median_error, std::isnan(e.median_error) ? kNaN : std::clamp(decades, 0.0, 1.0), e.judged};
 }
-Shown refusal_look(const EstimatorScore& e) { return {e.refusal(), e.refusal()}; }
-Shown coverage_look(const EstimatorScore& e) { return {e.coverage(), (0.95 - e.coverage()) / 0.95}; }
+Shown refusal_look(const EstimatorScore& e) { return {e.refusal(), e.refusal(), e.runs}; }
+Shown coverage_look(const EstimatorScore& e) {
+  return {e.coverage(), (0.95 - e.coverage()) / 0.95, e.claimed};
+}
+
+/// White at 0.1 %, dark at 100 %, by the logarithm.
+Shown score_look(const EstimatorScore& e) {
+  const double decades = std::log10(std::max(e.interval_score, 1e-12) / 1e-3) / 3.0;
+  return {e.interval_score, std::isnan(e.interval_score) ? kNaN : std::clamp(decades, 0.0, 1.0), e.claimed};
+}
 
 Tile tile_at(int a, int b, const Shown& shown) {
   Tile tile{{a - 0.5, a + 0.5}, {b - 0.5, b + 0.5}, kNothing, "–", kInk};
@@ -43,34 +55,34 @@ Tile tile_at(int a, int b, const Shown& shown) {
   tile.colour = shade_of(shown.badness);
   tile.text = percent(shown.value);
   tile.text.resize(tile.text.size() - 2);  // the title says percent
+  tile.note = fmt::format("n {}", shown.of);
   if (shown.badness > 0.45) tile.ink = {255, 255, 255};
   return tile;
-}
-
-Axis map_axis(const SummaryAxis& axis) {
-  Axis a{literal(axis.name), "", {-0.5, static_cast<double>(axis.bins.size()) - 0.5}, {}, {}, {}};
-  for (std::size_t i = 0; i < axis.bins.size(); ++i)
-    a.places.push_back({static_cast<double>(i), literal(axis.bins[i].label)});
-  return a;
 }
 
 Panel empty_map(const CampaignSummary& s, const SummaryTable& table, const std::string& title) {
   Panel p;
   p.title = title;
-  p.x = map_axis(s.axes[table.a]);
-  p.y = map_axis(s.axes[table.b]);
-  p.height = std::max(260.0, 58.0 * static_cast<double>(s.axes[table.b].bins.size()));
+  p.x = campaign_axis(s.axes[table.a], {0.5, 0.5});
+  p.y = campaign_axis(s.axes[table.b], {0.5, 0.5});
+  p.height = std::max(260.0, 100.0 * static_cast<double>(s.axes[table.b].bins.size()));
   return p;
 }
 
+/// A map of each estimator, where any of them has a number.
 void add_row(FigureData& figure, const CampaignSummary& s, const SummaryTable& table, const char* what,
              Look look) {
+  std::vector<Panel> row;
+  bool any = false;
   for (const CampaignEstimator& e : estimators_of(s)) {
-    Panel p = empty_map(s, table, fmt::format("{}: {}", e.name, what));
-    for (const SummaryCell& cell : table.cells)
-      p.tiles.push_back(tile_at(cell.a, cell.b, look(cell.*(e.score))));
-    figure.panels.push_back(std::move(p));
+    Panel& p = row.emplace_back(empty_map(s, table, fmt::format("{}: {}", e.name, what)));
+    for (const SummaryCell& cell : table.cells) {
+      const Shown shown = look(cell.*(e.score));
+      any = any || std::isfinite(shown.badness);
+      p.tiles.push_back(tile_at(cell.a, cell.b, shown));
+    }
   }
+  if (any) figure.panels.insert(figure.panels.end(), row.begin(), row.end());
 }
 
 void add_disagreement(FigureData& figure, const CampaignSummary& s, const SummaryTable& table) {
@@ -79,23 +91,13 @@ void add_disagreement(FigureData& figure, const CampaignSummary& s, const Summar
   for (const SummaryCell& c : table.cells) {
     const double share = c.both > 0 ? static_cast<double>(c.disagree) / c.both : kNaN;
     const double won = c.disagree > 0 ? static_cast<double>(c.model_free_nearer) / c.disagree : kNaN;
-    apart.tiles.push_back(tile_at(c.a, c.b, {share, share}));
-    nearer.tiles.push_back(tile_at(c.a, c.b, {won, std::isnan(won) ? kNaN : 0.0}));
+    apart.tiles.push_back(tile_at(c.a, c.b, {share, share, c.both}));
+    nearer.tiles.push_back(tile_at(c.a, c.b, {won, std::isnan(won) ? kNaN : 0.0, c.disagree}));
   }
   figure.panels.push_back(std::move(apart));
   const bool any = std::any_of(table.cells.begin(), table.cells.end(),
                                [](const SummaryCell& c) { return c.disagree > 0; });
   if (any) figure.panels.push_back(std::move(nearer));
-}
-
-/// " of 25 runs in a cell", " of 3 to 25 runs in a cell"; of two runs a percentage says little.
-std::string runs_words(const SummaryTable& table) {
-  if (table.cells.empty()) return "";
-  const auto [fewest, most] =
-      std::minmax_element(table.cells.begin(), table.cells.end(),
-                          [](const SummaryCell& a, const SummaryCell& b) { return a.runs < b.runs; });
-  return fewest->runs == most->runs ? fmt::format(" of {} runs in a cell", most->runs)
-                                    : fmt::format(" of {} to {} runs in a cell", fewest->runs, most->runs);
 }
 
 /// How often an estimator is there for nearly every run, and how good it is then.
@@ -134,13 +136,16 @@ FigureData campaign_map(const CampaignSummary& s, const SummaryTable& table) {
   figure.file = fmt::format("map_{}_{}.png", table.a + 1, table.b + 1);
   figure.title =
       literal(s.name) + ": " + literal(s.axes[table.a].name) + " × " + literal(s.axes[table.b].name);
-  figure.lines = {"Numbers in percent" + runs_words(table) +
-                  "; dark is bad; – where there is nothing to judge."};
+  figure.lines = {"Percent of the n runs below each; dark is bad; – where there is nothing to judge."};
   figure.columns = static_cast<int>(estimators.size());
-  figure.width = 1590.0 * static_cast<double>(estimators.size());
+  figure.width = estimators.size() > 1 ? kSheetWidth : kSheetWidth / 2.0;
+  for (const int axis : {table.a, table.b})
+    if (const std::string key = campaign_key(s.axes[static_cast<std::size_t>(axis)]); !key.empty())
+      figure.lines.push_back(key);
   add_row(figure, s, table, "median |error| (%)", error_look);
   add_row(figure, s, table, "no answer (% of the runs)", refusal_look);
   add_row(figure, s, table, "95 % interval holds the true gap (%)", coverage_look);
+  add_row(figure, s, table, "mean interval score (% of the gap)", score_look);
   if (s.model_free && s.reference) add_disagreement(figure, s, table);
   std::vector<std::string> readings;
   for (const CampaignEstimator& e : estimators) readings.push_back(reading_of(table, e));

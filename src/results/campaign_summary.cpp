@@ -10,7 +10,7 @@
 namespace gapscope {
 namespace internal::results {
 
-constexpr const char* kCampaignSchema = "gapscope.campaign/1";
+constexpr const char* kCampaignSchema = "gapscope.campaign/2";
 
 template <class Archive>
 void fields(Archive& archive, SummaryBin& b) {
@@ -31,13 +31,20 @@ void fields(Archive& archive, EstimatorScore& s) {
   archive("answered", s.answered);
   archive("denied", s.denied);
   archive("judged", s.judged);
-  archive("covered", s.covered);
   archive("within_1_percent", s.within_1);
   archive("within_2_percent", s.within_2);
   archive("within_5_percent", s.within_5);
+  archive("claimed", s.claimed);
+  archive("covered", s.covered);
+  archive("good", s.good);
+  archive("good_covered", s.good_covered);
   archive("median_relative_error", s.median_error);
   archive("relative_error_of_90_percent", s.error_90);
   archive("relative_bias", s.bias);
+  archive("relative_bias_ci95", s.bias_ci);
+  archive("median_relative_width", s.median_width);
+  archive("relative_interval_score", s.interval_score);
+  archive("passes", s.passes);
 }
 
 template <class Archive>
@@ -46,11 +53,36 @@ void fields(Archive& archive, SummaryCell& c) {
   archive("b", c.b);
   archive("runs", c.runs);
   archive("failed", c.failed);
+  archive.single("literal", c.literal);
   archive.single("model_free", c.model_free);
   archive.single("reference", c.reference);
   archive("both_answered", c.both);
   archive("disagree", c.disagree);
   archive("model_free_nearer", c.model_free_nearer);
+}
+
+template <class Archive>
+void fields(Archive& archive, EstimatorPair& p) {
+  archive("first", p.first);
+  archive("second", p.second);
+  archive("both", p.both);
+  archive("first_nearer", p.first_nearer);
+  archive("first_median_relative_error", p.first_error);
+  archive("second_median_relative_error", p.second_error);
+  archive("relative_advantage", p.advantage);
+  archive("relative_advantage_ci95", p.advantage_ci);
+  archive("claimed", p.claimed);
+  archive("disagree", p.disagree);
+  archive("correlation", p.correlation);
+  archive("correlation_ci95", p.correlation_ci);
+  archive("disagree_correlated", p.disagree_correlated);
+}
+
+template <class Archive>
+void fields(Archive& archive, SummaryTold& t) {
+  archive("estimator", t.estimator);
+  archive("told", t.told);
+  archive("lacks", t.lacks);
 }
 
 template <class Archive>
@@ -81,15 +113,28 @@ void fields(Archive& archive, CampaignSummary& s) {
   archive.configuration(s.configuration);
   archive("runs", s.runs);
   archive("done", s.done);
+  archive("repeated", s.repeated);
+  archive("literal", s.literal);
   archive("model_free", s.model_free);
   archive("reference", s.reference);
+  archive("samples", s.samples);
+  archive("recorded_s", s.recorded);
+  archive.list("told", s.told);
   archive.list("axes", s.axes);
   archive.single("total", s.total);
+  archive.list("contests", s.contests);
   archive.list("answers", s.answers);
   archive.list("along_axes", s.lines);
   archive.list("over_pairs", s.pairs);
   archive.list("refusals", s.refusals);
   archive.list("errors", s.errors);
+}
+
+template <class Archive>
+void fields(Archive& archive, CampaignTimes& t) {
+  archive("literal_s", t.literal_s);
+  archive("model_free_s", t.model_free_s);
+  archive("reference_s", t.reference_s);
 }
 
 Json campaign_schema() { return document_schema(kCampaignSchema, CampaignSummary()); }
@@ -99,6 +144,7 @@ Json campaign_schema() { return document_schema(kCampaignSchema, CampaignSummary
 namespace {
 
 std::string summary_in(const std::string& folder) { return folder + "/campaign.json"; }
+std::string times_in(const std::string& folder) { return folder + "/timing.json"; }
 
 /// A place in a list of this size; where there is no list, -1.
 void require_place(const internal::results::JsonReader& reader, const std::string& key, int place,
@@ -146,6 +192,23 @@ CampaignSummary read_campaign_summary(const std::string& folder) {
   require_places(reader, summary, "along_axes", summary.lines, false);
   require_places(reader, summary, "over_pairs", summary.pairs, true);
   return summary;
+}
+
+void write_campaign_times(const std::string& folder, const CampaignTimes& times) {
+  CampaignTimes copy = times;
+  internal::results::JsonWriter writer;
+  internal::results::fields(writer, copy);
+  internal::results::save_json(times_in(folder), writer.json);
+}
+
+CampaignTimes read_campaign_times(const std::string& folder) {
+  const std::string path = times_in(folder);
+  CampaignTimes times;
+  if (!std::filesystem::exists(path)) return times;
+  const internal::results::Json json = internal::results::load_json(path);
+  internal::results::JsonReader reader(json, path, "");
+  internal::results::fields(reader, times);
+  return times;
 }
 
 bool has_campaign_summary(const std::string& folder) { return std::filesystem::exists(summary_in(folder)); }

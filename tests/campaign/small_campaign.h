@@ -37,7 +37,7 @@ model: )" + kPaperModel;
 
   static std::string exported(const CampaignStore& store) {
     std::string text;
-    export_campaign(store, [&](const std::string& part) { text += part; });
+    export_campaign(store, false, [&](const std::string& part) { text += part; });
     return text;
   }
 

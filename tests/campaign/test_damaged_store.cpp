@@ -53,7 +53,7 @@ const std::vector<Damage> kDamages = {
     {"empty", "", "", "holds no campaign"},
     {"another_database", "DROP TABLE campaign", "", "holds no campaign"},
     {"other_schema", "UPDATE campaign SET value = 'gapscope.campaign/9' WHERE key = 'schema'", "",
-     "has the schema 'gapscope.campaign/9', expected 'gapscope.campaign/1'"},
+     "has the schema 'gapscope.campaign/9', expected 'gapscope.campaign/2'"},
     {"no_schema", "DELETE FROM campaign WHERE key = 'schema'", "", "has no schema"},
     {"no_version", "DELETE FROM campaign WHERE key = 'version'", "", "has no version"},
     {"no_identity", "DELETE FROM campaign WHERE key = 'identity'", "", "has no identity"},
@@ -133,7 +133,7 @@ TEST(DamagedStore, NothingIsExportedOfADamagedOne) {
                         "UPDATE runs SET model_free_verdict = CAST(x'ff00a5' AS TEXT) WHERE run = 1");
   std::string told;
   EXPECT_THAT(testing::refusal([&] {
-                export_campaign(CampaignStore(small.place("store")),
+                export_campaign(CampaignStore(small.place("store")), false,
                                 [&](const std::string& t) { told += t; });
               }),
               HasSubstr("results.sqlite: is damaged (a cell holds no text)"));

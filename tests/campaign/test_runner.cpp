@@ -35,8 +35,8 @@ TEST(Runner, ARowIsWhatTheCommandGivesForItsResolvedConfiguration) {
   EXPECT_EQ(row.seed, "3");
   const RunOutcome again =
       run_pipeline(parse_configuration(row.configuration, "resolved.yaml"), {}, [](const std::string&) {});
-  EXPECT_EQ(row.reference_gap, again.result.reference->find("gap")->value);
-  EXPECT_EQ(row.verdict, to_string(again.result.model_free->verdict));
+  EXPECT_EQ(row.reference.gap, again.result.reference->find("gap")->value);
+  EXPECT_EQ(row.model_free.outcome, to_string(again.result.model_free->verdict));
   EXPECT_EQ(row.true_gap, 0.019);
   EXPECT_GT(timing.run_s, 0.0);
 }
@@ -47,9 +47,9 @@ TEST(Runner, ARunThatFailsIsARowWithItsError) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3);
   EXPECT_THAT(table, HasSubstr("base.yaml:"));
   EXPECT_THAT(table, ::testing::Not(HasSubstr(small.folder.path.string())));
-  CampaignStore(small.place("store")).each([](CampaignRow& row, const CampaignTiming&) {
+  CampaignStore(small.place("store")).each([](CampaignRow& row, CampaignTiming&) {
     EXPECT_EQ(row.error.empty(), row.run != 1) << row.error;
-    EXPECT_EQ(std::isnan(row.reference_gap), row.run == 1);
+    EXPECT_EQ(std::isnan(row.reference.gap), row.run == 1);
   });
 }
 
@@ -67,8 +67,8 @@ TEST(Runner, OnlyTheEstimatorsThatWereAskedForAreRun) {
   const SmallCampaign small("axes: {encoder.bits: [20]}\nestimators: [model_free]\n");
   CampaignTiming timing;
   const CampaignRow row = run_of_campaign(small.config, 0, timing);
-  EXPECT_NE(row.verdict, "");
-  EXPECT_EQ(row.status, "");
+  EXPECT_NE(row.model_free.outcome, "");
+  EXPECT_EQ(row.reference.outcome, "");
   EXPECT_TRUE(std::isnan(timing.reference_s));
 }
 
@@ -108,7 +108,7 @@ TEST(Runner, ARowThatTwoStoresHaveMustBeTheSameInBoth) {
   CampaignRow other;
   other.run = 0;  // of the first shard
   other.point = {"16"};
-  other.gap = 0.5;
+  other.model_free.gap = 0.5;
   CampaignStore(small.place("shard2"), campaign_header(small.config, {2, 2})).add(other, {});
   EXPECT_THROW(merge_campaigns({small.place("shard1"), small.place("shard2")}, small.place("merged")),
                ConfigError);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "campaign/change_store.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/campaign/store.h"
@@ -37,25 +36,25 @@ TEST(Store, GivesBackWhatWasAdded) {
   row.run = 2;
   row.point = {"16", "{from_model: {input_limit: 1, load_force_bound: 0}}"};
   row.configuration = "name: a\n";
-  row.reason = "said \"no\", twice\nor more";
-  row.gap = 0.1 + 0.2;
-  row.reference_ci95 = {1e-3, 2e-3};
+  row.model_free.reason = "said \"no\", twice\nor more";
+  row.model_free.gap = 0.1 + 0.2;
+  row.reference.ci95 = {1e-3, 2e-3};
   row.agree = false;
   CampaignStore store(small.place("store"), campaign_header(small.config, {}));
-  store.add(row, {0.5, kNaN, 1.0});
+  store.add(row, {.model_free_s = 0.5, .run_s = 1.0});
   EXPECT_THAT(store.done(), ::testing::ElementsAre(2u));
   const CampaignStore reader(small.place("store"));
   int seen = 0;
   reader.each(
-      [&](CampaignRow& r, const CampaignTiming& t) {
+      [&](CampaignRow& r, CampaignTiming& t) {
         ++seen;
         EXPECT_EQ(r.run, 2u);
         EXPECT_EQ(r.point, row.point);
         EXPECT_EQ(r.configuration, row.configuration);
-        EXPECT_EQ(r.reason, row.reason);
-        EXPECT_EQ(r.gap, row.gap);
-        EXPECT_TRUE(std::isnan(r.std));
-        EXPECT_EQ(r.reference_ci95.high, 2e-3);
+        EXPECT_EQ(r.model_free.reason, row.model_free.reason);
+        EXPECT_EQ(r.model_free.gap, row.model_free.gap);
+        EXPECT_TRUE(std::isnan(r.model_free.std));
+        EXPECT_EQ(r.reference.ci95.high, 2e-3);
         EXPECT_EQ(r.agree, false);
         EXPECT_EQ(t.model_free_s, 0.5);
         EXPECT_TRUE(std::isnan(t.reference_s));
@@ -82,9 +81,9 @@ TEST(Store, ACellOfTheExportThatNeedsQuotesHasThem) {
   CampaignStore store(small.place("store"), campaign_header(small.config, {}));
   CampaignRow row;
   row.point = {"16", "auto"};
-  row.reason = "a \"b\", c";
+  row.error = "a \"b\", c";
   store.add(row, {});
-  EXPECT_THAT(SmallCampaign::exported(store), HasSubstr("\n1,16,auto,,,,,\"a \"\"b\"\", c\","));
+  EXPECT_THAT(SmallCampaign::exported(store), HasSubstr("\n1,16,auto,,\"a \"\"b\"\", c\","));
 }
 
 TEST(Store, AnotherCampaignIsRefusedWithTheDifferenceNamed) {
@@ -132,7 +131,7 @@ TEST(Store, RecordedDataMakeACampaignToo) {
   const CampaignRow row = run_of_campaign(recorded.config(), 1, timing);
   EXPECT_EQ(row.error, "");
   EXPECT_EQ(row.point, std::vector<std::string>{"r1.csv"});
-  EXPECT_NE(row.verdict, "");
+  EXPECT_NE(row.model_free.outcome, "");
   EXPECT_TRUE(std::isnan(row.true_gap));
 }
 
@@ -154,34 +153,17 @@ TEST(Store, AnotherVersionAndAnotherShardAreRefused) {
               HasSubstr("holds shard 1/1, expected 1/2"));
 }
 
-TEST(Store, OneThatWasMadeWithoutColumnsThatWereAddedLaterIsReadAndGoneOnWith) {
+TEST(Store, TimesAreExportedWhereTheyAreAskedFor) {
   const SmallCampaign small("axes: {encoder.bits: [16, 20]}\n");
+  CampaignStore store(small.place("store"), campaign_header(small.config, {}));
   CampaignRow row;
   row.point = {"16"};
-  row.reason = "too slow";
-  row.reason_codes = "too_slow";
-  row.reference_trust = "limited";
-  const auto add = [&] {
-    CampaignStore(small.place("store"), campaign_header(small.config, {})).add(row, {});
-  };
-  add();
-  testing::change_store(small.place("store/results.sqlite"),
-                        "ALTER TABLE runs DROP COLUMN model_free_reason_codes; "
-                        "ALTER TABLE runs DROP COLUMN reference_trust");
-  std::vector<std::string> codes;
-  const auto read = [&] {
-    codes.clear();
-    CampaignStore(small.place("store")).each([&](CampaignRow& r, const CampaignTiming&) {
-      codes.push_back(r.reason_codes + "/" + r.reference_trust);
-      EXPECT_EQ(r.reason, row.reason);
-    });
-    return codes;
-  };
-  EXPECT_THAT(read(), ::testing::ElementsAre("/"));
-  row.run = 1;
-  row.point = {"20"};
-  add();
-  EXPECT_THAT(read(), ::testing::ElementsAre("/", "too_slow/limited"));
+  store.add(row, {.literal_s = 0.25, .run_s = 1.5});
+  std::string with;
+  export_campaign(store, true, [&](const std::string& part) { with += part; });
+  EXPECT_THAT(with, AllOf(HasSubstr(",agree,literal_s,model_free_s,reference_s,run_s\n"),
+                          HasSubstr(",0.25,,,1.5\n")));
+  EXPECT_THAT(SmallCampaign::exported(store), ::testing::Not(HasSubstr("literal_s,")));
 }
 
 TEST(Store, OnlyOneProcessAddsAtATime) {

@@ -5,6 +5,7 @@
 
 #include "campaign/answers.h"
 #include "campaign/axis_names.h"
+#include "campaign/contest.h"
 #include "campaign/score.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/campaign/summary.h"
@@ -14,6 +15,8 @@ namespace {
 
 using internal::campaign::answers;
 using internal::campaign::axis_name;
+using internal::campaign::Contest;
+using internal::campaign::median_ci95;
 using internal::campaign::range_in_words;
 using internal::campaign::Scorer;
 using internal::campaign::with_unit;
@@ -23,27 +26,36 @@ using testing::SmallCampaign;
 CampaignRow answered(double gap, double half, double reference_gap) {
   CampaignRow row;
   row.true_gap = 0.01;
-  row.verdict = "backlash";
-  row.gap = gap;
-  row.ci95 = {gap - half, gap + half};
-  row.status = "converged";
-  row.reference_gap = reference_gap;
-  row.reference_ci95 = {reference_gap - 1e-5, reference_gap + 1e-5};
+  row.model_free.outcome = "backlash";
+  row.model_free.answers = row.reference.answers = true;
+  row.model_free.gap = gap;
+  row.model_free.std = half / 2.0;
+  row.model_free.ci95 = {gap - half, gap + half};
+  row.reference.outcome = "converged";
+  row.reference.gap = reference_gap;
+  row.reference.std = 5e-6;
+  row.reference.ci95 = {reference_gap - 1e-5, reference_gap + 1e-5};
   row.agree = std::abs(gap - reference_gap) <= half;
   return row;
 }
 
+CampaignHeader asking(bool literal, bool model_free, bool reference) {
+  CampaignHeader header;
+  header.literal = literal;
+  header.model_free = model_free;
+  header.reference = reference;
+  return header;
+}
+
 TEST(Score, CountsErrorsBiasCoverageAndRefusals) {
-  Scorer scorer(true, true);
+  Scorer scorer(asking(false, true, true));
   scorer.add(answered(0.0101, 2e-4, 0.01));
   scorer.add(answered(0.0104, 2e-4, 0.01));
   scorer.add(answered(0.0098, 3e-4, 0.0103));
   CampaignRow silent = answered(0.01, 1e-4, 0.01);
-  silent.verdict = "none";
-  silent.gap = kNaN;
-  silent.ci95 = {};
+  silent.model_free.outcome = "none";
+  silent.model_free.answers = silent.reference.answers = false;
   silent.agree.reset();
-  silent.status = "not_converged";
   scorer.add(silent);
   CampaignRow failed;
   failed.error = "no";
@@ -60,6 +72,10 @@ TEST(Score, CountsErrorsBiasCoverageAndRefusals) {
   EXPECT_NEAR(cell.model_free.median_error, 0.02, 1e-12);
   EXPECT_NEAR(cell.model_free.bias, 0.01, 1e-12);
   EXPECT_NEAR(cell.model_free.refusal(), 0.25, 1e-12);
+  const double scores[] = {4e-2 + 0.0, 4e-2 + 40 * 2e-2, 6e-2};
+  EXPECT_NEAR(cell.model_free.interval_score, mean(scores), 1e-12);
+  EXPECT_NEAR(cell.model_free.median_width, 0.04, 1e-12);
+  EXPECT_TRUE(std::isnan(cell.model_free.bias_ci.low)) << "three runs give no interval";
   EXPECT_EQ(cell.reference.answered, 3);
   EXPECT_EQ(cell.reference.covered, 2);
   EXPECT_EQ(cell.both, 3);
@@ -67,8 +83,50 @@ TEST(Score, CountsErrorsBiasCoverageAndRefusals) {
   EXPECT_EQ(cell.model_free_nearer, 1);  // 9.8 mrad is nearer to 10 than 10.3
 }
 
+TEST(Score, TheMediansIntervalIsThatOfTheOrderStatistics) {
+  std::vector<double> values;
+  for (int i = 1; i <= 10; ++i) values.push_back(i);
+  const Interval ten = median_ci95(values);  // P(at most 1 of 10 below) = 0.011, at most 2: 0.055
+  EXPECT_EQ(ten.low, 2.0);
+  EXPECT_EQ(ten.high, 9.0);
+  EXPECT_TRUE(std::isnan(median_ci95({1.0, 2.0, 3.0, 4.0, 5.0}).low));
+  values.assign(5000, 1.0);
+  EXPECT_EQ(median_ci95(values).low, 1.0);
+}
+
+TEST(Score, LiteralAnswersWithoutAnInterval) {
+  Scorer scorer(asking(true, true, true));
+  CampaignRow row = answered(0.01, 1e-4, 0.01);
+  row.literal.answers = true;
+  row.literal.gap = 0.0096;
+  scorer.add(row);
+  const EstimatorScore literal = scorer.cell().literal;
+  EXPECT_EQ(literal.judged, 1);
+  EXPECT_EQ(literal.within_5, 1);
+  EXPECT_EQ(literal.claimed, 0);
+  EXPECT_TRUE(std::isnan(literal.coverage()));
+}
+
+TEST(Contest, CountsOnWhatBothAnswerAndTellsTheCorrelationOfTheErrors) {
+  Contest contest("model_free", &CampaignRow::model_free, "reference", &CampaignRow::reference);
+  for (int i = -10; i <= 10; ++i) {  // both err alike, the first ten times as far
+    CampaignRow row = answered(0.01 + 1e-5 * i, 1.96e-5 * 5.0, 0.01 + 1e-6 * i);
+    contest.add(row);
+    row.reference.answers = false;
+    contest.add(row);
+  }
+  const EstimatorPair p = contest.pair();
+  EXPECT_EQ(p.both, 21);
+  EXPECT_EQ(p.claimed, 21);
+  EXPECT_EQ(p.first_nearer, 0);
+  EXPECT_NEAR(p.first_error, 5e-3, 1e-12);
+  EXPECT_NEAR(p.second_error, 5e-4, 1e-12);
+  EXPECT_NEAR(p.correlation, 1.0, 1e-12);
+  EXPECT_GE(p.disagree_correlated, p.disagree);
+}
+
 TEST(Score, WithoutATrueGapNothingIsJudged) {
-  Scorer scorer(true, false);
+  Scorer scorer(asking(false, true, false));
   CampaignRow row = answered(0.01, 1e-4, 0.01);
   row.true_gap = kNaN;
   scorer.add(row);
@@ -168,9 +226,9 @@ TEST(Summary, ReasonsWithTheSameCodesAreOneWhateverTheirNumbers) {
       CampaignRow row;
       row.run = run;
       row.point = {bits};
-      row.verdict = "inconclusive";
-      row.reason_codes = codes;
-      row.reason = reason;
+      row.model_free.outcome = "inconclusive";
+      row.model_free.reason_codes = codes;
+      row.model_free.reason = reason;
       store.add(row, {});
     };
     add(0, "14", "play/level", "play: 0.1 rad at 2 loops");
@@ -184,7 +242,7 @@ TEST(Summary, ReasonsWithTheSameCodesAreOneWhateverTheirNumbers) {
   EXPECT_EQ(s.refusals[0].text, "inconclusive: play: # rad at # loops");
   EXPECT_EQ(s.refusals[0].runs, 2);
   EXPECT_EQ(s.refusals[1].text, "inconclusive: the play is # rad")
-      << "a store without codes goes by the words";
+      << "a reason without codes goes by its words";
   EXPECT_EQ(s.refusals[1].runs, 2);
   EXPECT_EQ(s.refusals[2].runs, 1);
 }
@@ -198,6 +256,33 @@ TEST(Summary, ARangeWithoutValuesIsCutIntoParts) {
   ASSERT_EQ(s.axes[0].bins.size(), 6u);
   ASSERT_EQ(s.lines[0].cells.size(), 6u);
   for (const SummaryCell& cell : s.lines[0].cells) EXPECT_EQ(cell.runs, 2);
+}
+
+TEST(Summary, SeedsThatChangeNothingAreCountedOnce) {
+  const SmallCampaign small(
+      "axes: {simulation.noise: [0, 1.0e-5], simulation.seed: {repeat: 3}}\nestimators: [model_free]\n");
+  small.run("store", 2);
+  const CampaignSummary s = summarise(CampaignStore(small.place("store")));
+  EXPECT_EQ(s.done, 6);
+  EXPECT_EQ(s.repeated, 2);
+  ASSERT_EQ(s.lines[0].cells.size(), 2u);
+  EXPECT_EQ(s.lines[0].cells[0].runs, 1);
+  EXPECT_EQ(s.lines[0].cells[1].runs, 3);
+}
+
+TEST(Summary, TellsWhatEachEstimatorWasTold) {
+  const SmallCampaign small("axes: {encoder.bits: [20], detector.literal: [4]}\n");
+  small.run("store", 1);
+  const CampaignSummary s = summarise(CampaignStore(small.place("store")));
+  EXPECT_TRUE(s.literal);
+  ASSERT_EQ(s.told.size(), 3u);
+  EXPECT_THAT(s.told[0].told, ::testing::ElementsAre("L = 4 rad/s^2"));
+  EXPECT_TRUE(s.told[1].told.empty());
+  ASSERT_EQ(s.told[2].told.size(), 1u);
+  EXPECT_THAT(s.told[2].told[0], ::testing::HasSubstr("motor_inertia, torque_constant"));
+  EXPECT_TRUE(s.told[2].lacks.empty());
+  EXPECT_EQ(s.total.literal.passes, 1.0);
+  EXPECT_GT(s.total.reference.passes, s.total.model_free.passes);
 }
 
 }  // namespace

@@ -54,9 +54,10 @@ TEST(Campaign, WritesAStoreAReportAndWhatIsNeeded) {
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("reports/small/results.sqlite"), HasSubstr("runs        6 (6 of them now)"),
-                    HasSubstr("for at most 2 %, resolution by sampling rate: ")));
+                    HasSubstr("\nTake the reference, told "), HasSubstr("\nThat costs, in passes over ")));
   const auto content = place.content();
-  for (const char* file : {"report.md", "campaign.json", "map_2_1.png", "along_1.png", "along_2.png"})
+  for (const char* file :
+       {"report.md", "campaign.json", "timing.json", "cost.png", "map_2_1.png", "along_1.png", "along_2.png"})
     EXPECT_TRUE(content.count(std::string("reports/small/") + file)) << file;
 }
 

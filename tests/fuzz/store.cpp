@@ -26,9 +26,10 @@ std::string good_store() {
       CampaignRow row;
       row.run = run;
       for (const AxisValue& value : campaign_point(small.config, run)) row.point.push_back(value.yaml);
-      row.gap = row.true_gap = 0.019;
-      row.verdict = run == 0 ? "backlash" : "inconclusive";
-      row.ci95 = {0.018, 0.02};
+      row.model_free.gap = row.true_gap = 0.019;
+      row.model_free.outcome = run == 0 ? "backlash" : "inconclusive";
+      row.model_free.answers = run == 0;
+      row.model_free.ci95 = {0.018, 0.02};
       store.add(row, {});
     }
   }

@@ -25,7 +25,7 @@ CampaignSummary sample_campaign() {
   cell.model_free.median_error = 0.1 + 0.2;
   cell.both = 2;
   s.lines = {{0, -1, {cell}}};
-  s.answers = {{0.02, "model-free", "resolution", "at least 16 bit"}};
+  s.answers = {{0.02, "model_free", "resolution", "at least 16 bit"}};
   s.refusals = {{"inconclusive: too coarse", 2}};
   return s;
 }
@@ -46,6 +46,13 @@ TEST(CampaignSummary, IsReadBackAsItWasWritten) {
   EXPECT_TRUE(s.pairs.empty());
 }
 
+TEST(CampaignSummary, TimesStandBesideItAndMayBeMissing) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(std::isnan(read_campaign_times(folder.path.string()).reference_s));
+  write_campaign_times(folder.path.string(), {0.01, 0.3, 2.0});
+  EXPECT_EQ(read_campaign_times(folder.path.string()).reference_s, 2.0);
+}
+
 TEST(CampaignSummary, AnotherSchemaIsRefused) {
   const ScratchFolder folder;
   EXPECT_FALSE(has_campaign_summary(folder.path.string()));
@@ -55,7 +62,7 @@ TEST(CampaignSummary, AnotherSchemaIsRefused) {
     read_campaign_summary(folder.path.string());
     FAIL() << "accepted";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("expected \"gapscope.campaign/1\""));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("expected \"gapscope.campaign/2\""));
   }
 }
 

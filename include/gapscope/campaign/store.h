@@ -30,7 +30,7 @@ struct CampaignHeader {
   std::string name;      ///< of the campaign
   std::string identity;  ///< campaign_identity(), and what the recordings are that it reads
   Coordinates coordinates;
-  bool model_free = true, reference = true;
+  bool literal = false, model_free = true, reference = true;
   std::uint64_t runs = 0;  ///< of the whole campaign
   CampaignShard shard;
   std::vector<CampaignAxis> axes;
@@ -56,10 +56,10 @@ class CampaignStore {
   const std::string& file() const;
   std::set<std::uint64_t> done() const;  ///< runs that are there
   /// Every run that is there, in order. Configurations are left out unless asked for.
-  void each(const std::function<void(CampaignRow&, const CampaignTiming&)>& visit,
+  void each(const std::function<void(CampaignRow&, CampaignTiming&)>& visit,
             bool configurations = false) const;
   /// Any thread may add.
-  void add(CampaignRow row, const CampaignTiming& timing);
+  void add(CampaignRow row, CampaignTiming timing);
 
  private:
   struct Connection;
@@ -69,7 +69,9 @@ class CampaignStore {
 
 /// The rows as CSV: run, axes, drawn numbers, results; without configurations. Always in the order of the
 /// runs.
-void export_campaign(const CampaignStore& store, const std::function<void(const std::string&)>& write);
+/// @param times  with the wall times of each run, the only columns that are no function of the campaign
+void export_campaign(const CampaignStore& store, bool times,
+                     const std::function<void(const std::string&)>& write);
 
 /// All rows of several stores of one campaign in one new store of the whole. Rows that are in two stores must
 /// be the same.  @returns how many runs of the campaign are in it

@@ -8,4 +8,6 @@ namespace gapscope {
 /// What the runs of a campaign say together.
 CampaignSummary summarise(const CampaignStore& store);
 
+CampaignTimes times_of(const CampaignStore& store);
+
 }  // namespace gapscope

@@ -57,8 +57,9 @@ struct CampaignConfig {
   bool base_inline = false;  ///< the base stands under `base:` of the campaign's own YAML
   std::vector<CampaignAxis> axes;
   std::vector<CampaignDraw> draws;
-  std::optional<LatinHypercube> hypercube;   ///< absent: every combination
-  bool model_free = true, reference = true;  ///< `estimators:`
+  std::optional<LatinHypercube> hypercube;  ///< absent: every combination
+  /// `estimators:`; `literal`, S1 to S6 as printed, only where the first run has `detector: literal:`
+  bool literal = true, model_free = true, reference = true;
 
   std::uint64_t runs() const;  ///< how many runs it has
 };
@@ -76,6 +77,9 @@ std::vector<AxisValue> campaign_point(const CampaignConfig& campaign, std::uint6
 
 /// The configuration of run `index`.  @throws ConfigError where its values contradict each other.
 Configuration campaign_run(const CampaignConfig& campaign, std::uint64_t index);
+
+/// "literal, model_free, reference", without those that are not asked.
+std::string estimator_names(bool literal, bool model_free, bool reference);
 
 /// All that decides the results of a campaign, line by line, in a form that comments and spaces do not
 /// change.

@@ -8,6 +8,9 @@
 
 namespace gapscope {
 
+inline constexpr std::size_t kBankBounds =
+    24;  ///< that detect_gap() runs over a recording, beside what it fits
+
 namespace internal::sliding_mode {
 
 /// Gains and states of a bank, one array each.

@@ -9,7 +9,6 @@
 namespace gapscope::internal::sliding_mode {
 namespace {
 
-constexpr std::size_t kBounds = 24;
 constexpr std::size_t kSurrogate = 3000;  // samples
 constexpr std::size_t kSettle = 600;      // of them, not looked at
 
@@ -90,9 +89,9 @@ std::vector<double> bound_grid(const signals::SignalFacts& facts, double dt) {
   const double omega = std::sqrt(2.0) * facts.speed_rms / facts.amplitude;
   const double low = 0.15 * facts.amplitude * omega * omega;
   const double high = std::max(150.0 * low, 0.12 * facts.speed_rms / dt);
-  std::vector<double> bounds(kBounds);
-  for (std::size_t j = 0; j < kBounds; ++j)
-    bounds[j] = low * std::pow(high / low, static_cast<double>(j) / static_cast<double>(kBounds - 1));
+  std::vector<double> bounds(kBankBounds);
+  for (std::size_t j = 0; j < kBankBounds; ++j)
+    bounds[j] = low * std::pow(high / low, static_cast<double>(j) / static_cast<double>(kBankBounds - 1));
   return bounds;
 }
 
