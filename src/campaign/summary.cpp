@@ -11,7 +11,7 @@
 
 #include "campaign/answers.h"
 #include "campaign/axis_names.h"
-#include "campaign/contest.h"
+#include "campaign/pair_scorer.h"
 #include "campaign/score.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/shown.h"
@@ -21,7 +21,7 @@ namespace gapscope {
 namespace {
 
 using internal::campaign::axis_name;
-using internal::campaign::Contest;
+using internal::campaign::PairScorer;
 using internal::campaign::Scorer;
 using internal::campaign::with_unit;
 
@@ -227,10 +227,10 @@ class ToldThings {
 };
 
 /// Every two of those that were asked.
-std::vector<Contest> contests_of(const CampaignHeader& header) {
-  std::vector<Contest> all;
-  const auto add = [&](bool asked, const char* first, Contest::Estimate a, const char* second,
-                       Contest::Estimate b) {
+std::vector<PairScorer> contests_of(const CampaignHeader& header) {
+  std::vector<PairScorer> all;
+  const auto add = [&](bool asked, const char* first, PairScorer::Estimate a, const char* second,
+                       PairScorer::Estimate b) {
     if (asked) all.emplace_back(first, a, second, b);
   };
   add(header.model_free && header.reference, "model_free", &CampaignRow::model_free, "reference",
@@ -257,7 +257,7 @@ CampaignSummary summarise(const CampaignStore& store) {
   std::vector<TableScorer> lines, pairs;
   for (std::size_t i = 0; i < axes.size(); ++i) lines.emplace_back(header, static_cast<int>(i), -1);
   for (const auto& [a, b] : pairs_of(axes)) pairs.emplace_back(header, a, b);
-  std::vector<Contest> contests = contests_of(header);
+  std::vector<PairScorer> contests = contests_of(header);
   Counts refusals, errors;
   Repeats repeats(header);
   ToldThings told;
@@ -269,7 +269,7 @@ CampaignSummary summarise(const CampaignStore& store) {
     total.add(row);
     for (auto* tables : {&lines, &pairs})
       for (TableScorer& table : *tables) table.add(row, bins);
-    for (Contest& contest : contests) contest.add(row);
+    for (PairScorer& contest : contests) contest.add(row);
     told.add(row);
     if (std::isfinite(row.samples)) {
       typical.samples.push_back(row.samples);
@@ -292,7 +292,7 @@ CampaignSummary summarise(const CampaignStore& store) {
   s.told = told.of(header);
   for (const Binning& axis : axes) s.axes.push_back(axis.axis);
   s.total = total.cell();
-  for (const Contest& contest : contests) s.contests.push_back(contest.pair());
+  for (const PairScorer& contest : contests) s.contests.push_back(contest.pair());
   for (const TableScorer& table : lines) s.lines.push_back(table.table());
   for (const TableScorer& table : pairs) s.pairs.push_back(table.table());
   s.refusals = most_frequent(refusals);

@@ -81,15 +81,21 @@ Panel interval_panel(const CampaignSummary& s, const SummaryTable& table) {
       [](const EstimatorScore& e) { return log_percent(e.interval_score); }, ", score");
 }
 
-/// With the 95 % intervals of the medians.
+/// With the 95 % intervals of the medians, cut where they would flatten everything else.
 Panel bias_panel(const CampaignSummary& s, const SummaryTable& table) {
+  constexpr double kRoom = 1.5;
   Panel p = panel("Bias: median of the signed error, 95 % interval", s.axes[table.a], "error");
   p.series = series_of(s, table, [](const EstimatorScore& e) { return 100.0 * e.bias; });
+  double largest = 0.01;
+  for (const Series& line : p.series)
+    for (const double y : line.y) largest = std::fmax(largest, std::abs(y));
+  p.y.range = {-kRoom * largest, kRoom * largest};
   const auto estimators = estimators_of(s);
   for (std::size_t k = 0; k < p.series.size(); ++k)
     for (const SummaryCell& cell : table.cells) {
       const Interval& ci = (cell.*(estimators[k].score)).bias_ci;
-      p.series[k].y_intervals.push_back({100.0 * ci.low, 100.0 * ci.high});
+      p.series[k].y_intervals.push_back(
+          {std::max(100.0 * ci.low, p.y.range.low), std::min(100.0 * ci.high, p.y.range.high)});
     }
   p.y_marks.push_back({0.0, guide_style(), ""});
   return p;

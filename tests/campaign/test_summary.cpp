@@ -5,7 +5,7 @@
 
 #include "campaign/answers.h"
 #include "campaign/axis_names.h"
-#include "campaign/contest.h"
+#include "campaign/pair_scorer.h"
 #include "campaign/score.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/campaign/summary.h"
@@ -15,8 +15,8 @@ namespace {
 
 using internal::campaign::answers;
 using internal::campaign::axis_name;
-using internal::campaign::Contest;
 using internal::campaign::median_ci95;
+using internal::campaign::PairScorer;
 using internal::campaign::range_in_words;
 using internal::campaign::Scorer;
 using internal::campaign::with_unit;
@@ -107,8 +107,8 @@ TEST(Score, LiteralAnswersWithoutAnInterval) {
   EXPECT_TRUE(std::isnan(literal.coverage()));
 }
 
-TEST(Contest, CountsOnWhatBothAnswerAndTellsTheCorrelationOfTheErrors) {
-  Contest contest("model_free", &CampaignRow::model_free, "reference", &CampaignRow::reference);
+TEST(PairScorer, CountsOnWhatBothAnswerAndTellsTheCorrelationOfTheErrors) {
+  PairScorer contest("model_free", &CampaignRow::model_free, "reference", &CampaignRow::reference);
   for (int i = -10; i <= 10; ++i) {  // both err alike, the first ten times as far
     CampaignRow row = answered(0.01 + 1e-5 * i, 1.96e-5 * 5.0, 0.01 + 1e-6 * i);
     contest.add(row);

@@ -282,7 +282,7 @@ TEST(RunResult, AnUnwritablePlaceIsNamed) {
 TEST(Timing, ComesBackAndIsUnknownWhereNoFileIs) {
   ScratchFolder scratch;
   EXPECT_TRUE(std::isnan(read_timing(scratch.path.string()).model_free_s));
-  write_timing(scratch.path.string(), {0.1 * kThird, kNaN, 0.2 * kThird});
+  write_timing(scratch.path.string(), {.model_free_s = 0.1 * kThird, .wall_s = 0.2 * kThird});
   const Timing back = read_timing(scratch.path.string());
   EXPECT_EQ(back.model_free_s, 0.1 * kThird);
   EXPECT_TRUE(std::isnan(back.reference_s));

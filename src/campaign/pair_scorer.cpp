@@ -1,4 +1,4 @@
-#include "campaign/contest.h"
+#include "campaign/pair_scorer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +43,13 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
   return 2.0 * std::sin(kPi * by_ranks / 6.0);
 }
 
-Contest::Contest(std::string first, Estimate first_of, std::string second, Estimate second_of)
+PairScorer::PairScorer(std::string first, Estimate first_of, std::string second, Estimate second_of)
     : first_of_(first_of), second_of_(second_of) {
   names_.first = std::move(first);
   names_.second = std::move(second);
 }
 
-void Contest::add(const CampaignRow& row) {
+void PairScorer::add(const CampaignRow& row) {
   const CampaignEstimate &a = row.*first_of_, &b = row.*second_of_;
   if (!a.answers.value_or(false) || !b.answers.value_or(false) || !(row.true_gap > 0.0)) return;
   const double first = a.gap - row.true_gap, second = b.gap - row.true_gap;
@@ -58,7 +58,7 @@ void Contest::add(const CampaignRow& row) {
   if (claims(a) && claims(b)) claims_.push_back({first, second, a.std, b.std});
 }
 
-EstimatorPair Contest::pair() const {
+EstimatorPair PairScorer::pair() const {
   EstimatorPair p = names_;
   std::vector<double> first, second, advantage;
   for (const Errors& e : errors_) {

@@ -9,10 +9,10 @@
 namespace gapscope::internal::campaign {
 
 /// Two estimators on the runs that both answer.
-class Contest {
+class PairScorer {
  public:
   using Estimate = CampaignEstimate CampaignRow::*;
-  Contest(std::string first, Estimate first_of, std::string second, Estimate second_of);
+  PairScorer(std::string first, Estimate first_of, std::string second, Estimate second_of);
 
   void add(const CampaignRow& row);
   EstimatorPair pair() const;
