@@ -16,10 +16,6 @@ constexpr int kMostEventsPerSample = 2000;
 /// such a bounce, a quarter of its duration times its speed, is far below any encoder.
 constexpr double kShortestBounce = 1e-3;
 
-/// Steps are at most this long against the fastest rate of a smooth effect [-], and halved at most so often.
-constexpr double kEffectReach = 0.25;
-constexpr int kMostHalvings = 6;
-
 /// A dying torque divides a sample into at most so many pieces.
 constexpr double kMostDecayPieces = 128.0;
 
@@ -88,6 +84,7 @@ struct StepperImpl {
   long smooth_pieces = 0;  ///< along which smooth effects were followed
   /// Of each segment of a sample (two with a delay), each mode, and how often its pieces are halved.
   StateTransition<T> transitions[2][kFlows][kMostHalvings + 1];
+  StateTransition<T> own_transition;  ///< of a step of its own length
 
   StepperImpl(const PlantModel<T>& m, double step, double shortest);
 
@@ -127,6 +124,7 @@ struct StepperImpl {
   void end();
   void step(const T& u);
   void segment(const T& span, const T& u, int index);
+  void follow(const StateTransition<T>& whole, const T& span);
   StateTransition<T>& transition(const T& span, int index, int times_halved);
   int halvings(double h) const;
   void respond(const StateTransition<T>& step, const Forcing<T>& on, DriveState<T>& next) const;
@@ -140,7 +138,8 @@ struct StepperImpl {
   // --- a sample of its own length: stepper_uneven.h
   void step(const T& u, double span);
   void delayed_inputs(const T& u, double span);
-  void exact_segment(const T& span, const T& u);
+  void uneven_segment(const T& span, const T& u);
+  void flow_for(const T& span);
 
   // --- whether an event may lie in a step: stepper_outlook.h
   bool may_leave(const DriveState<T>& next, const Acting& at_start, const Acting& at_end, double h) const;

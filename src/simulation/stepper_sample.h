@@ -168,27 +168,33 @@ void StepperImpl<T>::segment(const T& span, const T& u, int index) {
   resolve_at_input_change();
   const StateTransition<T>* whole = &transition(span, index, 0);
   if (smooth) whole = &transition(span, index, halvings(value_of(whole->h)));
+  follow(*whole, span);
+}
+
+/// Piece by piece, all of one transition, up to the first that an event may lie in: from there exactly.
+template <class T>
+void StepperImpl<T>::follow(const StateTransition<T>& whole, const T& span) {
   DriveState<T> next;
   Forcing<T> on = forcing_without_effects();
   Acting at_start{value_of(on.half_gap[0]), 0.0, value_of(on.motor[0]), 0.0, value_of(on.load[0]), 0.0};
   Acting at_end = at_start;
-  for (int piece = 0; piece < whole->pieces; ++piece) {
+  for (int piece = 0; piece < whole.pieces; ++piece) {
     if (smooth) {
       on = forcing_without_effects();
-      advance_smoothly(*whole, on, next);
-      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole->h));
+      advance_smoothly(whole, on, next);
+      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole.h));
     } else if (decaying >= 0) {
       on = forcing_without_effects();
-      respond(*whole, on, next);
-      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole->h));
+      respond(whole, on, next);
+      at_start = acting_at(*this, on, 0.0), at_end = acting_at(*this, on, value_of(whole.h));
     } else {
-      respond(*whole, on, next);
+      respond(whole, on, next);
     }
-    if (may_leave(next, at_start, at_end, value_of(whole->h))) {
-      advance(span - static_cast<double>(piece) * whole->h);
+    if (may_leave(next, at_start, at_end, value_of(whole.h))) {
+      advance(span - static_cast<double>(piece) * whole.h);
       return;
     }
-    accept(next, whole->h);
+    accept(next, whole.h);
     forget_zeros();
   }
 }

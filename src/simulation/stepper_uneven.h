@@ -4,14 +4,14 @@
 
 namespace gapscope::internal::simulation {
 
-/// A sample of its own length: nothing is prepared for it, the exact path takes it whole.
+/// A sample of its own length.
 template <class T>
 void StepperImpl<T>::step(const T& u, double span) {
   begin(u);
   if (delayed)
     delayed_inputs(u, span);
   else
-    exact_segment(T(span), u);
+    uneven_segment(T(span), u);
   end();
 }
 
@@ -28,28 +28,36 @@ void StepperImpl<T>::delayed_inputs(const T& u, double span) {
     const T begins = given[next] - clock + delay;
     if (value_of(begins) >= span) break;
     if (value_of(begins) > value_of(done)) {
-      exact_segment(begins - done, inputs[acting]);
+      uneven_segment(begins - done, inputs[acting]);
       done = begins;
     }
     acting = next;
   }
-  exact_segment(span - done, inputs[acting]);
+  uneven_segment(span - done, inputs[acting]);
   clock += span;
 }
 
 /// Any length of constant input. An inertia that changes is that of the middle of a piece, none longer than
 /// the mean step.
 template <class T>
-void StepperImpl<T>::exact_segment(const T& span, const T& u) {
+void StepperImpl<T>::uneven_segment(const T& span, const T& u) {
   set_input(u);
   resolve_at_input_change();
-  if (!varies_inertia) return advance(span);
+  if (!varies_inertia) return flow_for(span);
   const double pieces = std::max(1.0, std::ceil(value_of(span) / dt));
   const T piece = span / pieces;
   for (double i = 0.0; i < pieces; i += 1.0) {
     set_inertia(value_of(piece));
-    advance(piece);
+    flow_for(piece);
   }
+}
+
+/// One body moves by closed form; what has a contact, or a dying torque, along its series.
+template <class T>
+void StepperImpl<T>::flow_for(const T& span) {
+  if (has_load || decaying >= 0 || !(value_of(span) > 0.0)) return advance(span);
+  prepare_body(f, mode, span, smooth, smooth ? effect_rate() : 0.0, own_transition);
+  follow(own_transition, span);
 }
 
 }  // namespace gapscope::internal::simulation

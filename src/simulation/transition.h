@@ -17,6 +17,10 @@ enum Row { kToX1, kToW1, kToX2, kToW2, kRows };
 /// are nearly quadratic in it.
 constexpr double kSmoothReach = 0.4;
 
+/// Steps are at most this long against the fastest rate of a smooth effect [-], and halved at most so often.
+constexpr double kEffectReach = 0.25;
+constexpr int kMostHalvings = 6;
+
 /// The flow of one mode over a whole piece h of a sample, as numbers: with δ̃ = δ − sβ the distance into the
 /// contact and torques M(s) = Σ M_n sⁿ (motor), L(s) (load),
 ///   Δx1, w1⁺, Δx2, w2⁺  =  response · (δ̃, w1, w2, M₀, L₀, M₁, L₁, M₂, L₂, D)
@@ -106,6 +110,48 @@ void prepare(const FlowConstants<T>& f, const ContactMode& mode, bool has_load, 
     response_column(f, mode, static_cast<Column>(column), transition);
   if (value_of(f.decay_rate) > 0.0) dying_column(f, mode, has_load, transition);
   transition.ready = true;
+}
+
+/// φ_k(z) = Σ zⁿ/(n + k)! for k = 0 to 4: integrals of an exponential against powers. For |z| up to the
+/// series' reach.
+template <class T>
+void exponential_integrals(const T& z, T (&phi)[5]) {
+  T sum(kReciprocal[kSeriesOrder]);
+  for (int n = kSeriesOrder - 1; n > 4; --n) sum = kReciprocal[n] * (1.0 + z * sum);
+  phi[4] = (1.0 + z * sum) / 24.0;
+  phi[3] = 1.0 / 6.0 + z * phi[4];
+  phi[2] = 0.5 + z * phi[3];
+  phi[1] = 1.0 + z * phi[2];
+  phi[0] = 1.0 + z * phi[1];
+}
+
+/// The same for one body, for which it costs less than a step along its series: a transition that is used
+/// once is worth it.
+/// @param effect_rate of the smooth effects [1/s]
+template <class T>
+void prepare_body(const FlowConstants<T>& f, const ContactMode& mode, const T& span, bool smooth,
+                  double effect_rate, StateTransition<T>& transition) {
+  const double whole = value_of(span), reach = smooth ? kSmoothReach : kSeriesReach;
+  const double of_flow = std::max(1.0, std::ceil(flow_rate(f, false, false) * whole / reach));
+  const double of_effects = std::ceil(effect_rate * whole / kEffectReach);
+  transition.pieces = static_cast<int>(std::clamp(of_effects, of_flow, of_flow * (1 << kMostHalvings)));
+  transition.h = span / static_cast<double>(transition.pieces);
+  if (smooth) transition.inverse_h = 1.0 / transition.h;
+  auto& r = transition.response;
+  const T& h = transition.h;
+  if (mode.motor == 0) {
+    r[kW1][kToX1] = h, r[kW1][kToW1] = T(1.0);
+    for (const Column torque : {kMotor0, kMotor1, kMotor2}) r[torque][kToX1] = r[torque][kToW1] = T(0.0);
+    return;
+  }
+  const T inverse_m = 1.0 / f.m1;
+  T phi[5];
+  exponential_integrals(T(-(mode.motor < 0 ? f.d1_minus : f.d1_plus) * inverse_m * h), phi);
+  const T to_w = h * inverse_m;
+  r[kW1][kToX1] = h * phi[1], r[kW1][kToW1] = phi[0];
+  r[kMotor0][kToX1] = h * to_w * phi[2], r[kMotor0][kToW1] = to_w * phi[1];
+  r[kMotor1][kToX1] = h * h * to_w * phi[3], r[kMotor1][kToW1] = h * to_w * phi[2];
+  r[kMotor2][kToX1] = 2.0 * h * h * h * to_w * phi[4], r[kMotor2][kToW1] = 2.0 * h * h * to_w * phi[3];
 }
 
 }  // namespace gapscope::internal::simulation
