@@ -87,7 +87,7 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns
   if (hz.empty()) return band;
   std::vector<Rows> rows(hz.size());
   parallel_for(hz.size(), threads, [&](std::size_t i) { rows[i] = stacked(traces, hz[i], false, options); });
-  for (const BandRecord& r : rows.front().records) band.free_constant |= is_constant_speed(r, options);
+  for (const BandRecord& r : rows.front().records()) band.free_constant |= is_constant_speed(r, options);
 
   const Model probe = probe_model(turns);
   read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));

@@ -8,7 +8,7 @@
 namespace gapscope::internal::torque_view {
 
 Blocks::Blocks(const Rows& rows, const TorqueViewOptions& options) {
-  for (const BandRecord& record : rows.records) {
+  for (const BandRecord& record : rows.records()) {
     std::size_t last = static_cast<std::size_t>(-1);
     for (const double t : record.row_time) {
       const auto block = static_cast<std::size_t>((t - record.t.front()) / options.block);

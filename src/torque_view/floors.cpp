@@ -49,7 +49,7 @@ double repeatability(const SplitRecordings& data, Bench& bench, const Model& mod
     const double period = input_period(data.judge[r]);
     if (!(period > 0.0)) continue;
     const auto [squares, rows] =
-        not_repeated(bench.judge.records[r], left.data() + bench.judge.first[r], period);
+        not_repeated(bench.judge.records()[r], left.data() + bench.judge.first[r], period);
     sum += squares, count += rows;
   }
   return count > 0.0 ? std::sqrt(sum / count) : kNaN;

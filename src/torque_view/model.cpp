@@ -64,7 +64,7 @@ double first_coefficient(const Model& model, std::string_view name) {
 }
 
 Samples Rows::samples(std::size_t r) const {
-  const BandRecord& record = records[r];
+  const BandRecord& record = records()[r];
   return {record.t, record.x, record.w, record.a, tau[r], tau_load[r], inertia, viscous};
 }
 
@@ -86,20 +86,22 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
   rows.free_constant = free_constant;
   Eigen::Index samples = 0;
   rows.first.push_back(0);
+  auto records = std::make_shared<std::vector<BandRecord>>();
   for (const StampedTrace& trace : traces) {
-    rows.records.push_back(in_band(trace, hz, options));
-    rows.first.push_back(rows.first.back() + rows.records.back().u.size());
+    records->push_back(in_band(trace, hz, options));
+    rows.first.push_back(rows.first.back() + records->back().u.size());
     samples = std::max(samples, static_cast<Eigen::Index>(trace.t.size()));
     rows.tau.emplace_back(trace.t.size(), 0.0);
   }
+  rows.shared = std::move(records);
   rows.tau_load = rows.tau;
   rows.u.resize(rows.first.back());
-  for (std::size_t r = 0; r < rows.records.size(); ++r)
-    rows.u.segment(rows.first[r], rows.records[r].u.size()) = rows.records[r].u;
+  for (std::size_t r = 0; r < rows.records().size(); ++r)
+    rows.u.segment(rows.first[r], rows.records()[r].u.size()) = rows.records()[r].u;
   int widest = 0;
   for (const Law& l : laws()) widest = std::max(widest, l.columns);
   rows.at_samples.resize(samples, widest);
-  for (const BandRecord& r : rows.records)
+  for (const BandRecord& r : rows.records())
     rows.level.push_back(free_constant && r.u.size() > 0 ? r.u.mean() : 0.0);
   centre(rows, rows.u);
   return rows;
@@ -108,11 +110,11 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
 Scales scales_of(const Rows& rows, const ShaftTurns& turns, bool held_output) {
   Scales s;
   s.turns = turns, s.held_output = held_output, s.one_speed = rows.free_constant;
-  s.hz = rows.records.front().hz;
+  s.hz = rows.records().front().hz;
   s.start = kInfinity;
   double low = kInfinity, high = -kInfinity, end = -kInfinity;
   std::vector<double> speeds;
-  for (const BandRecord& r : rows.records) {
+  for (const BandRecord& r : rows.records()) {
     s.start = std::min(s.start, r.t.front()), end = std::max(end, r.t.back());
     const auto [least, most] = std::minmax_element(r.x.begin(), r.x.end());
     low = std::min(low, *least), high = std::max(high, *most);
@@ -130,7 +132,7 @@ Scales scales_of(const Rows& rows, const ShaftTurns& turns, bool held_output) {
 
 void centre(const Rows& rows, Eigen::Ref<Eigen::MatrixXd> columns) {
   if (!rows.free_constant) return;
-  for (std::size_t r = 0; r < rows.records.size(); ++r)
+  for (std::size_t r = 0; r < rows.records().size(); ++r)
     for (Eigen::Index c = 0; c < columns.cols(); ++c) {
       auto part = columns.col(c).segment(rows.first[r], rows.first[r + 1] - rows.first[r]);
       if (part.size() > 0) part.array() -= part.mean();
@@ -138,15 +140,15 @@ void centre(const Rows& rows, Eigen::Ref<Eigen::MatrixXd> columns) {
 }
 
 void filter_columns(Rows& rows, const Law& law, std::size_t r, Eigen::Ref<Eigen::MatrixXd> columns) {
-  const BandRecord& record = rows.records[r];
+  const BandRecord& record = rows.records()[r];
   const RowFilter& filter = law.follows_states ? record.rest : record.whole;
   for (int c = 0; c < law.columns; ++c)
     filter.apply(rows.at_samples.col(c).data(), columns.col(c).data() + rows.first[r]);
 }
 
 void fill_columns(Rows& rows, const Law& law, double shape, Eigen::Ref<Eigen::MatrixXd> columns) {
-  for (std::size_t r = 0; r < rows.records.size(); ++r) {
-    const auto count = static_cast<Eigen::Index>(rows.records[r].t.size());
+  for (std::size_t r = 0; r < rows.records().size(); ++r) {
+    const auto count = static_cast<Eigen::Index>(rows.records()[r].t.size());
     law.fill(rows.samples(r), shape, rows.at_samples.topLeftCorner(count, law.columns));
     filter_columns(rows, law, r, columns);
   }
@@ -168,8 +170,8 @@ Eigen::MatrixXd model_columns(Rows& rows, const Model& model) {
 void set_torque(Rows& rows, const Model& model) {
   rows.inertia = first_coefficient(model, "inertia");
   rows.viscous = first_coefficient(model, "viscous");
-  for (std::size_t r = 0; r < rows.records.size(); ++r) {
-    const auto count = static_cast<Eigen::Index>(rows.records[r].t.size());
+  for (std::size_t r = 0; r < rows.records().size(); ++r) {
+    const auto count = static_cast<Eigen::Index>(rows.records()[r].t.size());
     Eigen::Map<Eigen::VectorXd> tau(rows.tau[r].data(), count), load(rows.tau_load[r].data(), count);
     tau.setZero(), load.setZero();
     for (const Term& term : model) {
@@ -210,7 +212,7 @@ Eigen::VectorXd residual(Rows& rows, const Model& model, bool new_phase) {
     else
       left.noalias() -= columns * term.theta;
   }
-  for (std::size_t r = 0; r < rows.records.size(); ++r)
+  for (std::size_t r = 0; r < rows.records().size(); ++r)
     for (const auto& [line, amplitude] : lines) {
       const Eigen::Index first = rows.first[r], count = rows.first[r + 1] - first;
       const auto part = line.middleRows(first, count);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,9 @@ double first_coefficient(const Model& model, std::string_view law);  ///< its fi
 
 /// Recordings of one purpose in one band, their rows one below the other.
 struct Rows {
-  std::vector<BandRecord> records;
-  std::vector<Eigen::Index> first;  ///< row of each record, and the end
+  std::shared_ptr<const std::vector<BandRecord>> shared =
+      std::make_shared<std::vector<BandRecord>>();  ///< by copies, which only have their own torques
+  std::vector<Eigen::Index> first;                  ///< row of each record, and the end
   Eigen::VectorXd u;
   bool free_constant = false;  ///< one per recording: all columns without their mean
   std::vector<double> level;   ///< of the inputs, which the constants take; 0 without them [unit of u]
@@ -35,6 +37,7 @@ struct Rows {
   double inertia = 0.0, viscous = 0.0;
   Eigen::MatrixXd at_samples;  ///< scratch
 
+  const std::vector<BandRecord>& records() const { return *shared; }
   Eigen::Index size() const { return u.size(); }
   double input_square() const;  ///< of the input with its level
   Samples samples(std::size_t record) const;

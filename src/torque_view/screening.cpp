@@ -1,6 +1,7 @@
 #include "torque_view/screening.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -80,11 +81,16 @@ std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueVi
     beside_simpler.emplace(bench.fit, with_simpler);
   }
   std::vector<std::optional<Candidate>> found(open.size());
-  parallel_for(open.size(), bench.threads, [&](std::size_t i) {
+  const std::size_t side_by_side =
+      std::min(open.size(), static_cast<std::size_t>(thread_count(bench.threads)));
+  std::atomic<std::size_t> next = 0;
+  parallel_for(side_by_side, bench.threads, [&](std::size_t) {
     Bench own = bench;  // laws are filled into its rows
-    const bool brings = lacks_simpler(model, *open[i]);
-    found[i] = tried(own, *open[i], model, brings ? with_simpler : model, brings ? *beside_simpler : plain,
-                     before, options);
+    for (std::size_t i = next++; i < open.size(); i = next++) {
+      const bool brings = lacks_simpler(model, *open[i]);
+      found[i] = tried(own, *open[i], model, brings ? with_simpler : model, brings ? *beside_simpler : plain,
+                       before, options);
+    }
   });
   std::vector<Candidate> ranking;
   for (std::optional<Candidate>& c : found)

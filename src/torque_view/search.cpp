@@ -17,7 +17,7 @@ using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColu
 class TurningLine {
  public:
   TurningLine(const Rows& rows, double k, double step) {
-    for (const BandRecord& r : rows.records) {
+    for (const BandRecord& r : rows.records()) {
       now_.push_back(angles(r.x, k));
       step_.push_back(angles(r.x, step));
     }
