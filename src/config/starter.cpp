@@ -144,6 +144,7 @@ void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f
 void write_commanding(YamlWriter& out, const RecordingConfig& recording, bool sought,
                       Coordinates coordinates) {
   ControllerModel model = ControllerModel::known(*recording.reading.controller);
+  model.rate_sought = !(model.fixed.rate > 0.0);
   if (sought)
     model.numbers[static_cast<std::size_t>(leading_number(model.fixed.kind))] = ParameterSetting::sought();
   internal::config::write_controller(

@@ -111,6 +111,7 @@ TEST(Init, AServoThatTakesGoalsMayHaveAGainThatNobodyKnows) {
   EXPECT_THAT(yaml, HasSubstr("target: \"goal\""));
   EXPECT_THAT(yaml, HasSubstr("gain: {estimate: true}"));
   EXPECT_THAT(yaml, HasSubstr("torque_constant: 1  # not known apart from the controller's gain"));
+  EXPECT_THAT(yaml, HasSubstr("rate: auto")) << yaml;
   EXPECT_EQ(place.run(init + " --controller-gain 2 --voltage volts -o duty.yaml").status, 0);
   EXPECT_THAT(testing::text_of(place.folder() / "duty.yaml"), HasSubstr("gain: 2  # duty per rad"));
   const std::string set = init + " --controller-gain 2 --set controller.position.saturation=0.8 --set ";
