@@ -110,7 +110,7 @@ FirstSearch first_look(Study& study) {
   if (at_floor(found.before) || finish_requested()) return found;
   if (std::optional<ScoredModel> together = explained_together(study, found.before)) {
     found.alone = std::max(found.before.median_free, found.before.median_innovation);
-    found.before = std::move(*together), study.train = everything(study);
+    found.before = std::move(*together), study.train = everything(study), study.all.clear();
     return found;
   }
   const HeldOut by_encoder = study.held_out;
@@ -178,12 +178,12 @@ std::string undetermined(const FirstSearch& found) {
 /// With half of what is held out among what is fitted; nothing where the other half is not worth a judgement,
 /// and the study stays as it was.
 std::optional<FirstSearch> look_wider(Study& study, const FirstSearch& found) {
-  const std::vector<MotorTrace> train = study.train;
+  const std::vector<MotorTrace> train = study.train, all = study.all;
   const HeldOut held_out = study.held_out;
   fit_half_of_the_held_out(study);
   FirstSearch wider = first_look(study);
   if (wider.candidates.empty() || study.repeats_badly()) {
-    study.train = train, study.held_out = held_out, study.observer_hz = kMeasure.slow_hz;
+    study.train = train, study.all = all, study.held_out = held_out, study.observer_hz = kMeasure.slow_hz;
     return {};
   }
   wider.alone = std::max(found.before.median_free, found.before.median_innovation);
@@ -239,7 +239,8 @@ EffectSearch search_effects(Study& study) {
   // The balance sees what is slow; what leaves the encoder nothing to show is all there is.
   if (!ladder.added.empty() && !leaves_nothing(added)) return {std::move(found), {}, std::move(ladder)};
   added.accepted = added.accepted && !contradicted(found, added);
-  if (added.accepted && added.wider) study.train = added.wider->train, study.held_out = added.wider->held_out;
+  if (added.accepted && added.wider)
+    study.train = added.wider->train, study.held_out = added.wider->held_out, study.all.clear();
   if (added.accepted || study.is_exhausted() || !asked_far_too_little(study, found))
     return {std::move(found), std::move(added), {}};
   if (std::optional<FirstSearch> wider = look_wider(study, found)) {

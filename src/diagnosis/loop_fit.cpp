@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/few_recordings.h"
 #include "diagnosis/loop_numbers.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/parallel.h"
@@ -21,11 +22,11 @@ constexpr double kStep = 0.01;         ///< of a number, by which its derivative
 constexpr double kSmallError = 2e-3;   ///< below which an error weighs as a square [rad]
 constexpr double kLost = 10.0;         ///< error of a motion that diverges [rad]
 constexpr double kSettled = 2e-3;      ///< of the error, below which a step is the last
-constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 10;
-constexpr int kTrials = 6;               ///< of a step that does not lessen the error
+constexpr int kFirstSteps = 8, kTrySteps = 2, kMoreSteps = 3, kLastSteps = 10;
+constexpr double kMayHelp = 1.1;  ///< of the least error, up to which a few steps more may lead below it
+constexpr int kTrials = 6;        ///< of a step that does not lessen the error
 constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop [Hz]
-constexpr std::size_t kLongestTried = 2000, kMostRowsTried = 10000;  ///< rows of one recording, of all
-constexpr std::size_t kFirstRows = 5;                                ///< over which the first speed is read
+constexpr std::size_t kFirstRows = 5;    ///< over which the first speed is read
 
 /// The speed with which a recording begins: none, where it moves by no more than the encoder's steps.
 DriveState<double> begin_of(const MotorTrace& trace) {
@@ -129,17 +130,6 @@ class LoopSearch {
   int threads_;
 };
 
-/// Recordings that stand for all while it is looked what a loop lacks: of every so many one, cut short.
-std::vector<MotorTrace> few_of(std::span<const MotorTrace> all) {
-  std::size_t rows = 0;
-  for (const MotorTrace& t : all) rows += std::min(t.size(), kLongestTried);
-  const std::size_t every = std::max<std::size_t>(1, rows / kMostRowsTried);
-  std::vector<MotorTrace> few;
-  for (std::size_t r = 0; r < all.size(); r += every)
-    few.push_back(part(all[r], 0, std::min(all[r].size(), kLongestTried)));
-  return few;
-}
-
 /// At the rows, or between them.
 void settle_rate(const LoopSearch& search, Loop& loop) {
   Loop other = loop;
@@ -178,7 +168,9 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
       for (const double start : left[a].starts) {
         id::Loop next = loop;
         left[a].put(next, start);
-        const double error = quick.refine(next, id::places_of(next, options), id::kTrySteps);
+        const std::vector<id::LoopPlace> places = id::places_of(next, options);
+        double error = quick.refine(next, places, id::kTrySteps);
+        if (error < id::kMayHelp * best_error) error = quick.refine(next, places, id::kMoreSteps);
         if (error < best_error) best = next, best_error = error, which = a, helps = true;
       }
     if (!helps) break;

@@ -23,6 +23,16 @@ struct Measure {
 };
 inline constexpr Measure kMeasure;
 
+/// Recordings that a search looks at, of many: what a servo lacks shows on some minutes of them, and its
+/// numbers are fitted to all in the end.
+struct FewRecordings {
+  std::size_t fewest = 3;           ///< recordings, however long
+  std::size_t rows = 6000;          ///< of all together, from which no more are taken
+  std::size_t longest_rows = 2000;  ///< of one, or more where these are shorter than
+  double longest = 20.0;            ///< [s]
+};
+inline constexpr FewRecordings kFewRecordings;
+
 /// Free runs by which the numbers of a recommended model are fitted, see long_runs.h. Of the linear axis of
 /// docs/torque_balance.md, fitted to one recording, seven ways of cutting it left 7.7 to 8.8 mm rms of the
 /// whole of the other one; this one, which was settled on with that one in sight, leaves 8.15.

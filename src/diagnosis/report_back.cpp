@@ -245,12 +245,13 @@ Diagnosis report_back(const Study& study, const FirstSearch& found, const Additi
   Diagnosis d;
   d.verdict = verdict_of(found, additions);
   const bool added = d.verdict == DiagnosisVerdict::kEffect;
-  const ScoredModel told = settled(study, added ? additions.after : found.before);
-  const ScoredModel& nominal = added ? nominal_of(found, additions) : told;
+  const Study whole = of_all(study);
+  const ScoredModel told = settled(whole, on_all(whole, added ? additions.after : found.before));
+  const ScoredModel nominal = added ? on_all(whole, nominal_of(found, additions)) : told;
   tell_steps(study, additions, band_of(found), d);
-  tell_models(study, found, nominal, told, added ? &first_effect(found, additions) : nullptr, d);
+  tell_models(whole, found, nominal, told, added ? &first_effect(found, additions) : nullptr, d);
   if (added) tell_added(study, nominal, additions, told.fitted.model, d);
-  tell_intervals(study, told.fitted, nominal.fitted.model, d);
+  tell_intervals(whole, told.fitted, nominal.fitted.model, d);
   d.rivals = open_question(found, additions);
   return d;
 }
@@ -258,7 +259,7 @@ Diagnosis report_back(const Study& study, const FirstSearch& found, const Additi
 namespace {
 
 /// The model with what was added, in order.
-Diagnosis report_added(const Study& study, const FirstSearch& found, const ScoredModel& after,
+Diagnosis report_added(const Study& whole, const FirstSearch& found, const ScoredModel& after,
                        std::vector<AddedEffect> added) {
   Diagnosis d;
   d.verdict = added.front().established ? DiagnosisVerdict::kEffect : DiagnosisVerdict::kHelps;
@@ -270,28 +271,31 @@ Diagnosis report_added(const Study& study, const FirstSearch& found, const Score
   const auto at = std::find_if(fitted.begin(), fitted.end(), [&](const ModelEffect& e) {
     return e.entry == first || contained_effect(*e.entry) == first;
   });
-  tell_models(study, found, found.before, after, at == fitted.end() ? nullptr : &*at, d);
+  const ScoredModel nominal = on_all(whole, found.before);
+  tell_models(whole, found, nominal, after, at == fitted.end() ? nullptr : &*at, d);
   d.balanced = after.fitted.balanced;
-  tell_intervals(study, after.fitted, found.before.fitted.model, d);
+  tell_intervals(whole, after.fitted, nominal.fitted.model, d);
   return d;
 }
 
 }  // namespace
 
 Diagnosis report_ladder(const Study& study, const FirstSearch& found, const TorqueSearch& ladder) {
-  const TorqueSearch told{ladder.added, settled(study, ladder.after)};
-  Diagnosis d = report_added(study, found, told.after, added_effects(*found.budget, told));
+  const Study whole = of_all(study);
+  const TorqueSearch told{ladder.added, settled(whole, on_all(whole, ladder.after))};
+  Diagnosis d = report_added(whole, found, told.after, added_effects(*found.budget, told));
   mark_undecided(d);
   return d;
 }
 
 Diagnosis report_help(const Study& study, const FirstSearch& found) {
-  const ScoredModel best = settled(study, found.candidates.front());
+  const Study whole = of_all(study);
+  const ScoredModel best = settled(whole, on_all(whole, found.candidates.front()));
   AddedEffect a;
   a.effect = best.entry->name;
   a.group = names_of(found.decision.group);
   a.parameters = values_in(best.fitted.model, *best.entry);
-  Diagnosis d = report_added(study, found, best, {a});
+  Diagnosis d = report_added(whole, found, best, {a});
   d.added.front().shrink = d.mismatch.shrink, d.added.front().shrink_ci95 = d.mismatch.shrink_ci95;
   d.added.front().after_torque = d.mismatch.after_torque;
   d.rivals = open_question(found, {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/few_recordings.h"
 #include "gapscope/base/interrupt.h"
 #include "gapscope/base/require.h"
 #include "signals/encoder.h"
@@ -23,12 +24,16 @@ void DiagnosisKnowledge::fields(FieldVisitor& v) {
 namespace internal::diagnosis {
 namespace {
 
+/// What is fitted of a file whose last third is held out.
+MotorTrace first_part(const MotorTrace& file) {
+  return part(file, 0, static_cast<std::size_t>(kMeasure.train_share * static_cast<double>(file.size())));
+}
+
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
   for (const MotorTrace& file : files) {
-    const auto cut = static_cast<std::size_t>(kMeasure.train_share * static_cast<double>(file.size()));
-    study.train.push_back(part(file, 0, cut));
+    study.train.push_back(first_part(file));
     study.held_out.traces.push_back(file);
-    study.held_out.scored_from.push_back(cut);
+    study.held_out.scored_from.push_back(study.train.back().size());
   }
 }
 
@@ -76,10 +81,15 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
                  const ReferenceModel& model, const DiagnosisOptions& options) {
   Study study{{}, {}, model, {}, kMeasure.slow_hz, 0.0, {}, options};
   study.turns = options.coordinates.rotational() ? options.turns : ShaftTurns::of_a_slide();
+  const std::vector<MotorTrace> few = few_of(train);
+  const bool are_all = few.size() == train.size();
   if (held_out.empty()) {
-    hold_out_the_last_third(train, study);
+    hold_out_the_last_third(few, study);
+    for (const MotorTrace& t : train)
+      if (!are_all) study.all.push_back(first_part(t));
   } else {
-    study.train.assign(train.begin(), train.end());
+    study.train = few;
+    if (!are_all) study.all.assign(train.begin(), train.end());
     study.held_out.traces.assign(held_out.begin(), held_out.end());
     study.held_out.scored_from.assign(held_out.size(), 0);
   }
@@ -120,12 +130,28 @@ bool may_fit_half_of_the_held_out(const Study& study) {
 }
 
 void fit_half_of_the_held_out(Study& study) {
+  study.all.clear();
   HeldOut& held = study.held_out;
   for (std::size_t r = 0; r < held.traces.size(); ++r) {
     const std::size_t half = half_of(held.traces[r]);
     study.train.push_back(part(held.traces[r], 0, half));
     held.scored_from[r] = half;
   }
+}
+
+Study of_all(const Study& study) {
+  Study whole = study;
+  if (!study.all.empty()) whole.train = study.all;
+  return whole;
+}
+
+ScoredModel on_all(const Study& whole, const ScoredModel& model) {
+  if (whole.all.empty() || !std::isfinite(model.fitted.mean_cost)) return model;
+  whole.options.progress("fitting all recordings");
+  FittedModel fitted = fit_near(whole.train, model.fitted.model, whole.options.fit, whole.observer_hz);
+  return fitted.mean_cost < kInfinity
+             ? judge(model.entry, std::move(fitted), whole.held_out, whole.observer_hz)
+             : model;
 }
 
 std::vector<MotorTrace> everything(const Study& study) {

@@ -8,7 +8,7 @@ namespace gapscope::internal::diagnosis {
 
 /// What all steps of a diagnosis share.
 struct Study {
-  std::vector<MotorTrace> train;
+  std::vector<MotorTrace> train;  ///< what is searched on
   HeldOut held_out;
   ReferenceModel sheet;  ///< as given
   std::vector<const EffectEntry*> catalogue;
@@ -19,8 +19,9 @@ struct Study {
   const DiagnosisOptions& options;
   double step_work =
       0.0;  ///< samples of plain runs that the first step, had it tried the whole catalogue, cost
-  std::int64_t work_before = 0;  ///< the same, by when the first look, and then further steps, may begin
-  ShaftTurns turns = {};         ///< none of a slide
+  std::int64_t work_before = 0;      ///< the same, by when the first look, and then further steps, may begin
+  ShaftTurns turns = {};             ///< none of a slide
+  std::vector<MotorTrace> all = {};  ///< what `train` stands for, where these are more; else empty
 
   bool is_exhausted() const;  ///< no further step begins: its work is done, or it was asked to finish
   bool has_done_its_work() const;
@@ -47,6 +48,10 @@ void count_first_step(Study& study, std::size_t candidates);
 /// The state that each recording that is fitted begins with, of a model that was fitted to them. A model of
 /// the torque balance brings none.
 std::vector<reference::RecordingStart> starts_on(const Study& study, const FittedModel& fitted);
+
+/// The study of all recordings that what is searched on stands for, and a model fitted to these.
+Study of_all(const Study& study);
+ScoredModel on_all(const Study& whole, const ScoredModel& model);
 
 /// What is fitted and what is held out.
 std::vector<MotorTrace> everything(const Study& study);
