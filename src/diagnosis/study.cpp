@@ -82,7 +82,7 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   Study study{{}, {}, model, {}, kMeasure.slow_hz, 0.0, {}, options};
   study.turns = options.coordinates.rotational() ? options.turns : ShaftTurns::of_a_slide();
   const std::vector<MotorTrace> few = few_of(train);
-  const bool are_all = few.size() == train.size();
+  const bool are_all = std::ranges::equal(few, train, {}, &MotorTrace::size, &MotorTrace::size);
   if (held_out.empty()) {
     hold_out_the_last_third(few, study);
     for (const MotorTrace& t : train)

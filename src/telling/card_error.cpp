@@ -100,9 +100,25 @@ Told closed_loop(const Diagnosis& d, Coordinates coordinates) {
   if (!d.closed_loop) return {};
   const ClosedLoop& c = *d.closed_loop;
   const double travel = d.whole_run ? d.whole_run->travel : kNaN;
-  return {{std::isfinite(c.before) ? "error.closed_loop" : "error.closed_loop.diverges",
-           {number("before", c.before, "rad"), number("after", d.added.empty() ? kNaN : c.after, "rad"),
-            travel_word(travel, coordinates)}}};
+  return {
+      {std::isfinite(c.before) ? "error.closed_loop" : "error.closed_loop.diverges",
+       {number("before", c.before, "rad"), number("after", d.added.empty() || d.loop ? kNaN : c.after, "rad"),
+        travel_word(travel, coordinates)}}};
+}
+
+/// Of the model that is fitted in the loop, over what was held out.
+Told fitted_loop(const Diagnosis& d) {
+  if (!d.loop || d.held_out_runs.empty()) return {};
+  double sum = 0.0;
+  const HeldOutRun* worst = &d.held_out_runs.front();
+  for (const HeldOutRun& run : d.held_out_runs) {
+    sum += run.mae;
+    if (!(run.mae <= worst->mae)) worst = &run;
+  }
+  const double count = static_cast<double>(d.held_out_runs.size());
+  return {{"error.fitted_loop",
+           {number("mae", sum / count, "rad"), ratio("count", count), number("most", worst->mae, "rad"),
+            word("worst", worst->file)}}};
 }
 
 /// Under its controller a drive is judged by that.
@@ -146,6 +162,7 @@ Told error_of(const CardFacts& f, const Card& card) {
   put(as_configured(d));
   put(free_run(d, f.coordinates));
   put(closed_loop(d, f.coordinates));
+  put(fitted_loop(d));
   return told;
 }
 

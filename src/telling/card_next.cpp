@@ -127,6 +127,13 @@ Told step_of_the_model(const CardFacts& f, const Card& card) {
   return told;
 }
 
+/// Where the loop was fitted as a whole: that is what fitted.yaml has.
+Told step_of_the_loop(const CardFacts& f) {
+  Told told = {{"next.loop"}};
+  for (Statement& s : export_of(f)) told.push_back(std::move(s));
+  return told;
+}
+
 /// Where nothing is missing.
 Told step_of_numbers(const CardFacts& f) {
   std::vector<std::string> rows;
@@ -176,6 +183,7 @@ Told next_of(const CardFacts& f, const Card& card) {
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps))
     return {{"next.estimate", {names("held", d.held), estimate_true()}}};
+  if (d.loop) return step_of_the_loop(f);
   if (unknown && d.better_swapped) return {{"next.swap"}};  // which takes no new recording
   if (Told onwards = step_onwards(d); !onwards.empty()) return onwards;
   if (Told next = experiment(d); !next.empty()) return next;

@@ -44,6 +44,7 @@ constexpr Wording kSteps[] = {
      "Do not simulate with `DIR/fitted.yaml`: the motion comes no nearer with {added?what was added|all that "
      "was "
      "added}. Record another motion ({motion}), and diagnose again."},
+    {"next.loop", "Simulate with `DIR/fitted.yaml`, goal in and position out."},
     {"next.simulate", "Simulate with `DIR/fitted.yaml`[, which has {addition} in it]."},
     {"next.simulate.open",
      "Simulate with `DIR/fitted.yaml`: it predicts best, whether or not each addition is a "

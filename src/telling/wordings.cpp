@@ -160,6 +160,10 @@ constexpr Wording kWordings[] = {
     {"error.closed_loop.diverges",
      "With its controller in the loop it runs away[; with what helps it is {after} "
      "rms off in position]."},
+    {"error.fitted_loop",
+     "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average.",
+     "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average (mean "
+     "absolute error of the position over whole recordings)[; the worst of {count} is {worst} with {most}]."},
     {"tolerance.torque.within", "Within your tolerance of {limit}."},
     {"tolerance.torque.outside", "Outside your tolerance of {limit}."},
     {"tolerance.torque.then_within", "Outside your tolerance of {limit}, within it with what helps."},
