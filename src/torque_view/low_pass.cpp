@@ -63,24 +63,25 @@ RowFilter::RowFilter(std::span<const double> t, std::span<const double> cells, s
   for (const double T : rows) {
     kernel.move_to(T);
     double m0 = 0.0, m1 = 0.0, m2 = 0.0;
+    weights_.resize(weights_.size() + kernel.end_ - kernel.first_);
+    double* const own = weights_.data() + offset_.back();
     for (std::size_t i = kernel.first_; i < kernel.end_; ++i) {
-      const double s = (t[i] - T) / sigma, k = kernel.weight(i, T);
+      const double s = (t[i] - T) / sigma, k = own[i - kernel.first_] = kernel.weight(i, T);
       m0 += k, m1 += k * s, m2 += k * s * s;
     }
     const double norm = m0 * m2 - m1 * m1;
     for (std::size_t i = kernel.first_; i < kernel.end_; ++i)
-      weights_.push_back(kernel.weight(i, T) * (m2 - m1 * (t[i] - T) / sigma) / norm);
+      own[i - kernel.first_] *= (m2 - m1 * (t[i] - T) / sigma) / norm;
     first_.push_back(kernel.first_);
     offset_.push_back(weights_.size());
   }
 }
 
 void RowFilter::apply(const double* samples, double* rows) const noexcept {
+  using Terms = Eigen::Map<const Eigen::VectorXd>;
   for (std::size_t r = 0; r < first_.size(); ++r) {
-    const double* sample = samples + first_[r];
-    double sum = 0.0;
-    for (std::size_t k = offset_[r]; k < offset_[r + 1]; ++k) sum += weights_[k] * *sample++;
-    rows[r] = sum;
+    const auto count = static_cast<Eigen::Index>(offset_[r + 1] - offset_[r]);
+    rows[r] = Terms(weights_.data() + offset_[r], count).dot(Terms(samples + first_[r], count));
   }
 }
 
