@@ -22,9 +22,8 @@ constexpr double kStep = 0.01;         ///< of a number, by which its derivative
 constexpr double kSmallError = 2e-3;   ///< below which an error weighs as a square [rad]
 constexpr double kLost = 10.0;         ///< error of a motion that diverges [rad]
 constexpr double kSettled = 2e-3;      ///< of the error, below which a step is the last
-constexpr int kFirstSteps = 8, kTrySteps = 2, kMoreSteps = 3, kLastSteps = 10;
-constexpr double kMayHelp = 1.1;  ///< of the least error, up to which a few steps more may lead below it
-constexpr int kTrials = 6;        ///< of a step that does not lessen the error
+constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 10;
+constexpr int kTrials = 6;               ///< of a step that does not lessen the error
 constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop [Hz]
 constexpr std::size_t kFirstRows = 5;    ///< over which the first speed is read
 
@@ -168,9 +167,7 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
       for (const double start : left[a].starts) {
         id::Loop next = loop;
         left[a].put(next, start);
-        const std::vector<id::LoopPlace> places = id::places_of(next, options);
-        double error = quick.refine(next, places, id::kTrySteps);
-        if (error < id::kMayHelp * best_error) error = quick.refine(next, places, id::kMoreSteps);
+        const double error = quick.refine(next, id::places_of(next, options), id::kTrySteps);
         if (error < best_error) best = next, best_error = error, which = a, helps = true;
       }
     if (!helps) break;
