@@ -185,7 +185,7 @@ Told helps_of(const CardFacts& f, const Card& card) {
   const auto put = [&](Told more) { told.insert(told.end(), more.begin(), more.end()); };
   if (!d.added.empty()) {
     put({fall(f, card), {"helps.fitted", {added_names(d)}}});
-    if (comes_no_nearer(d.mismatch) && !d.loop)
+    if (comes_no_nearer(d.mismatch) && !leads_in_loop(d))
       put({{"helps.no_nearer",
             {number("before", d.mismatch.before, "rad"), number("after", d.mismatch.after, "rad"),
              word("measure", d.mismatch.measure)}}});
