@@ -1,4 +1,4 @@
-#include "gapscope/base/at_once.h"
+#include "base/at_once.h"
 
 #include <unistd.h>
 

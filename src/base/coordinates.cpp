@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/decimals.h"
+#include "base/decimals.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "gapscope/base/input_facts.h"
+#include "base/input_facts.h"
 
 #include <fmt/format.h>
 
 #include <cctype>
 #include <string_view>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/input_file.h"
+#include "base/input_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,8 +1,8 @@
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 
 #include <atomic>
 
-#include "gapscope/base/cut_short.h"
+#include "base/cut_short.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope {

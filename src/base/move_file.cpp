@@ -1,4 +1,4 @@
-#include "gapscope/base/move_file.h"
+#include "base/move_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "gapscope/base/now_and_then.h"
+#include "base/now_and_then.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/parallel.h"
+#include "base/parallel.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope {
 namespace {

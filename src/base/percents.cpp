@@ -1,9 +1,9 @@
-#include "gapscope/base/percents.h"
+#include "base/percents.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/decimals.h"
+#include "base/decimals.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope {

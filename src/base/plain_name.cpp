@@ -1,4 +1,4 @@
-#include "gapscope/base/plain_name.h"
+#include "base/plain_name.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/process_lock.h"
+#include "base/process_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

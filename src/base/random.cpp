@@ -1,4 +1,4 @@
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 #include <cmath>
 

@@ -9,8 +9,8 @@
 #include <ostream>
 #include <utility>
 
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
+#include "base/require.h"
+#include "base/text.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/run_apart.h"
+#include "base/run_apart.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -17,8 +17,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 
 namespace gapscope {
 namespace {

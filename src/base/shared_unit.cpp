@@ -1,4 +1,4 @@
-#include "gapscope/base/shared_unit.h"
+#include "base/shared_unit.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/decimals.h"
+#include "base/decimals.h"
 
 namespace gapscope {
 

@@ -1,10 +1,10 @@
-#include "gapscope/base/shell_word.h"
+#include "base/shell_word.h"
 
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 namespace gapscope {
 

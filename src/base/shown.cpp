@@ -1,4 +1,4 @@
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <string_view>

@@ -14,10 +14,10 @@
 #include <string_view>
 #include <thread>
 
-#include "gapscope/base/at_once.h"
+#include "base/at_once.h"
+#include "base/interrupt.h"
+#include "base/move_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/move_file.h"
 
 namespace gapscope {
 namespace {

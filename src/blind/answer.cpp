@@ -4,22 +4,22 @@
 #include <atomic>
 #include <filesystem>
 
+#include "base/interrupt.h"
+#include "base/move_file.h"
+#include "base/parallel.h"
+#include "base/shown.h"
+#include "base/text.h"
 #include "blind/answer_journal.h"
+#include "blind/blind_check.h"
 #include "blind/case_copy.h"
 #include "blind/expected_place.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/move_file.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
-#include "gapscope/blind/blind_check.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/effect.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/sha256.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "results/blind_files.h"
+#include "results/sha256.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {

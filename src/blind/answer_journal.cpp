@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/input_file.h"
+#include "base/move_file.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/move_file.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/sha256.h"
+#include "results/blind_files.h"
+#include "results/sha256.h"
 
 namespace gapscope::blind {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "gapscope/base/process_lock.h"
-#include "gapscope/results/blind_records.h"
+#include "base/process_lock.h"
+#include "results/blind_records.h"
 
 namespace gapscope::blind {
 

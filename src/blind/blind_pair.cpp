@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/random.h"
 #include "engine_plant/mujoco_plant.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope::blind {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "blind/drawn_law.h"
-#include "gapscope/config/blind_config.h"
+#include "config/blind_config.h"
 #include "gapscope/reference/fit.h"
 #include "independent_plant/severity.h"
 

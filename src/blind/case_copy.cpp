@@ -7,10 +7,10 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "base/input_file.h"
 #include "blind/sealed_files.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/results/sha256.h"
+#include "results/sha256.h"
 
 namespace gapscope::blind {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gapscope/results/blind_records.h"
+#include "results/blind_records.h"
 
 namespace gapscope::blind {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/random.h"
 #include "engine_plant/mujoco_plant.h"
-#include "gapscope/base/random.h"
 #include "independent_plant/severity.h"
 
 namespace gapscope::blind {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gapscope/config/blind_config.h"
-#include "gapscope/results/blind_records.h"
+#include "config/blind_config.h"
+#include "results/blind_records.h"
 
 namespace gapscope::blind {
 

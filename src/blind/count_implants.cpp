@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/text.h"
 #include "blind/scored_answer.h"
-#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::blind {

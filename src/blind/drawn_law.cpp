@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::blind {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/results/blind_records.h"
+#include "results/blind_records.h"
 
 namespace gapscope::blind {
 

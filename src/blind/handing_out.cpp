@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "base/interrupt.h"
+#include "blind/blind_check.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/blind/blind_check.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/blind_files.h"
+#include "results/blind_files.h"
 
 namespace gapscope::blind {
 namespace {

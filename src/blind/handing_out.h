@@ -4,8 +4,8 @@
 #include <string>
 
 #include "gapscope/recording/recording.h"
-#include "gapscope/results/blind_records.h"
-#include "gapscope/results/report_folder.h"
+#include "results/blind_records.h"
+#include "results/report_folder.h"
 
 namespace gapscope::blind {
 

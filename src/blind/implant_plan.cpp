@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/random.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::blind {

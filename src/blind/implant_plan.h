@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "gapscope/config/implant_config.h"
-#include "gapscope/results/blind_records.h"
+#include "config/implant_config.h"
 #include "implant/implant.h"
+#include "results/blind_records.h"
 
 namespace gapscope::blind {
 

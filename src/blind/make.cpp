@@ -2,15 +2,15 @@
 #include <filesystem>
 #include <ostream>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "blind/blind_check.h"
 #include "blind/blind_pair.h"
 #include "blind/case_plan.h"
 #include "blind/handing_out.h"
+#include "config/configuration.h"
 #include "engine_plant/mujoco_plant.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope {
 namespace {

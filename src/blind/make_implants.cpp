@@ -3,16 +3,16 @@
 #include <filesystem>
 #include <ostream>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "blind/blind_check.h"
 #include "blind/handing_out.h"
 #include "blind/implant_plan.h"
+#include "diagnosis/foretold_share.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/diagnosis/foretold_share.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {

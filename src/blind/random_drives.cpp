@@ -1,4 +1,4 @@
-#include "gapscope/blind/random_drives.h"
+#include "blind/random_drives.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/report_folder.h"
 #include "independent_plant/random_drive.h"
+#include "results/report_folder.h"
 
 namespace gapscope {
 namespace {

@@ -1,10 +1,10 @@
 #include <filesystem>
 
+#include "blind/blind_check.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/sha256.h"
+#include "results/blind_files.h"
+#include "results/sha256.h"
 
 namespace gapscope {
 namespace {

@@ -1,4 +1,4 @@
-#include "gapscope/blind/score.h"
+#include "blind/score.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/text.h"
 #include "blind/scored_answer.h"
-#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 #include "independent_plant/severity.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/blind/score.h"
+#include "blind/score.h"
 
 namespace gapscope::blind {
 

@@ -5,15 +5,15 @@
 #include <map>
 #include <set>
 
+#include "base/plain_name.h"
+#include "base/shown.h"
+#include "blind/blind_check.h"
 #include "blind/sealed_files.h"
+#include "config/configuration.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/sha256.h"
+#include "results/blind_files.h"
+#include "results/sha256.h"
 
 namespace gapscope {
 namespace {

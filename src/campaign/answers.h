@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/campaign/summary.h"
+#include "campaign/summary.h"
 
 namespace gapscope::internal::campaign {
 

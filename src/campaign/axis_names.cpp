@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "gapscope/plant/drive.h"
 
 namespace gapscope::internal::campaign {

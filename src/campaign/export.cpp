@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "campaign/store.h"
 #include "campaign/store_header.h"
-#include "gapscope/campaign/store.h"
 
 namespace gapscope {
 namespace {

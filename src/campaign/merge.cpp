@@ -4,10 +4,10 @@
 #include <functional>
 #include <map>
 
+#include "base/interrupt.h"
+#include "campaign/store.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/campaign/store.h"
 
 namespace gapscope {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/normal.h"
 #include "campaign/score.h"
-#include "gapscope/base/normal.h"
 
 namespace gapscope::internal::campaign {
 namespace {

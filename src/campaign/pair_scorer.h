@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/campaign/row.h"
-#include "gapscope/campaign/summary.h"
+#include "campaign/row.h"
+#include "campaign/summary.h"
 
 namespace gapscope::internal::campaign {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
+#include "base/move_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/move_file.h"
-#include "gapscope/results/sha256.h"
+#include "results/sha256.h"
 
 namespace gapscope::internal::campaign {
 namespace {

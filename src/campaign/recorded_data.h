@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/config/campaign_config.h"
+#include "config/campaign_config.h"
 
 namespace gapscope::internal::campaign {
 

@@ -1,4 +1,4 @@
-#include "gapscope/campaign/runner.h"
+#include "campaign/runner.h"
 
 #include <fmt/format.h>
 
@@ -9,14 +9,14 @@
 #include <new>
 #include <system_error>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
 #include "campaign/recorded_data.h"
 #include "campaign/store_header.h"
 #include "campaign/told.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/run/run_pipeline.h"
-#include "gapscope/sliding_mode/bound_bank.h"
+#include "run/run_pipeline.h"
+#include "sliding_mode/bound_bank.h"
 
 namespace gapscope {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "gapscope/campaign/row.h"
-#include "gapscope/campaign/store.h"
-#include "gapscope/campaign/summary.h"
+#include "campaign/row.h"
+#include "campaign/store.h"
+#include "campaign/summary.h"
 
 namespace gapscope::internal::campaign {
 

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/interrupt.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 #include "recording/foreign_database.h"
 

@@ -1,4 +1,4 @@
-#include "gapscope/campaign/store.h"
+#include "campaign/store.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,14 +9,14 @@
 #include <initializer_list>
 #include <mutex>
 
+#include "base/input_file.h"
+#include "base/interrupt.h"
+#include "base/process_lock.h"
+#include "base/require.h"
+#include "base/text.h"
 #include "campaign/sqlite.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/process_lock.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/shown.h"
 #include "campaign/recorded_data.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
 
 namespace gapscope {

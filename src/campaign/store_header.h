@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "campaign/sqlite.h"
-#include "gapscope/campaign/store.h"
+#include "campaign/store.h"
 
 namespace gapscope::internal::campaign {
 

@@ -1,4 +1,4 @@
-#include "gapscope/campaign/summary.h"
+#include "campaign/summary.h"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <regex>
 #include <set>
 
+#include "base/shown.h"
 #include "campaign/answers.h"
 #include "campaign/axis_names.h"
 #include "campaign/pair_scorer.h"
 #include "campaign/score.h"
+#include "campaign/store.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/campaign/store.h"
 
 namespace gapscope {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "gapscope/results/sha256.h"
+#include "results/sha256.h"
 
 namespace gapscope::internal::campaign {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "gapscope/reference/fit_summary.h"
 
 namespace gapscope::internal::campaign {

@@ -1,4 +1,4 @@
-#include "gapscope/changes/changes.h"
+#include "changes/changes.h"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <functional>
 #include <iterator>
 
+#include "base/require.h"
 #include "changes/differences.h"
 #include "changes/judge.h"
 #include "changes/observations.h"
 #include "changes/series.h"
 #include "changes/which.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
 #include "gapscope/base/version.h"
-#include "gapscope/results/sha256.h"
+#include "results/sha256.h"
 
 namespace gapscope {
 namespace {

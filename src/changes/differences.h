@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/changes/drive_report.h"
+#include "changes/drive_report.h"
 
 namespace gapscope::internal::changes {
 

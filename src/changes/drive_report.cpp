@@ -1,4 +1,4 @@
-#include "gapscope/changes/drive_report.h"
+#include "changes/drive_report.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "changes/loops.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/run_result.h"
+#include "results/diagnosis_result.h"
 #include "results/file_list.h"
+#include "results/run_result.h"
 
 namespace gapscope {
 namespace {

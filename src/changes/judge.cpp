@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/normal.h"
 #include "changes/chance.h"
-#include "gapscope/base/normal.h"
 
 namespace gapscope::internal::changes {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "gapscope/results/drive_changes.h"
+#include "results/drive_changes.h"
 
 namespace gapscope::internal::changes {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/changes/drive_report.h"
+#include "changes/drive_report.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope::internal::changes {

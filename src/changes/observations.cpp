@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 
 namespace gapscope::internal::changes {
 namespace {

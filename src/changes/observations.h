@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "gapscope/changes/drive_report.h"
-#include "gapscope/results/drive_changes.h"
+#include "changes/drive_report.h"
+#include "results/drive_changes.h"
 
 namespace gapscope::internal::changes {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <iterator>
 
+#include "base/normal.h"
 #include "changes/chance.h"
-#include "gapscope/base/normal.h"
 
 namespace gapscope::internal::changes {
 namespace {

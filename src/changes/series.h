@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/results/drive_changes.h"
+#include "results/drive_changes.h"
 
 namespace gapscope::internal::changes {
 

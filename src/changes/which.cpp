@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "base/normal.h"
 #include "changes/chance.h"
 #include "changes/judge.h"
-#include "gapscope/base/normal.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::internal::changes {

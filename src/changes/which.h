@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gapscope/changes/drive_report.h"
-#include "gapscope/results/drive_changes.h"
+#include "changes/drive_report.h"
+#include "results/drive_changes.h"
 
 namespace gapscope::internal::changes {
 

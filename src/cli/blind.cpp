@@ -3,15 +3,15 @@
 
 #include <memory>
 
+#include "base/interrupt.h"
+#include "blind/blind_check.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/report/blind_report.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/blind_score.h"
-#include "gapscope/results/report_folder.h"
+#include "report/blind_report.h"
+#include "results/blind_files.h"
+#include "results/blind_score.h"
+#include "results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {

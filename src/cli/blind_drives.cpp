@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "blind/random_drives.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/blind/random_drives.h"
 
 namespace gapscope::cli {
 namespace {

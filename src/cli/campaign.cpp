@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "campaign/runner.h"
+#include "campaign/summary.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/campaign/runner.h"
-#include "gapscope/campaign/summary.h"
-#include "gapscope/report/campaign_report.h"
-#include "gapscope/results/campaign_summary.h"
-#include "gapscope/results/report_folder.h"
+#include "report/campaign_report.h"
+#include "results/campaign_summary.h"
+#include "results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {

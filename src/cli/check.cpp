@@ -1,5 +1,5 @@
 // `check`: what a recording is worth before anything is estimated from it.
-#include "gapscope/commands/check.h"
+#include "commands/check.h"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/input_facts.h"
+#include "base/shown.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/presets.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_facts.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/inspection/reach.h"
-#include "gapscope/report/recording_picture.h"
-#include "gapscope/results/inspection_result.h"
+#include "inspection/reach.h"
+#include "report/recording_picture.h"
+#include "results/inspection_result.h"
 
 namespace gapscope::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/shell_word.h"
+#include "base/text.h"
 #include "cli/command_tree.h"
-#include "gapscope/base/shell_word.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::cli {
 namespace {

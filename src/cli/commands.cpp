@@ -4,8 +4,8 @@
 
 #include <ostream>
 
+#include "base/shell_word.h"
 #include "cli/console.h"
-#include "gapscope/base/shell_word.h"
 
 namespace gapscope::cli {
 

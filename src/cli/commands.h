@@ -7,10 +7,10 @@
 
 #include "cli/command_line.h"
 #include "cli/console.h"
+#include "config/configuration.h"
 #include "gapscope/base/coordinates.h"
 #include "gapscope/base/remark.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope::cli {
 

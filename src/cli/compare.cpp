@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 
+#include "base/interrupt.h"
+#include "changes/changes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/changes/changes.h"
-#include "gapscope/report/changes_report.h"
-#include "gapscope/results/report_folder.h"
+#include "report/changes_report.h"
+#include "results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include <span>
 #include <string_view>
 
-#include "gapscope/base/decimals.h"
-#include "gapscope/base/now_and_then.h"
-#include "gapscope/base/shell_word.h"
+#include "base/decimals.h"
+#include "base/now_and_then.h"
+#include "base/shell_word.h"
 
 namespace gapscope::cli {
 namespace {

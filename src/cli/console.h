@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/run/run_pipeline.h"
+#include "results/diagnosis_result.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::cli {
 

@@ -13,11 +13,11 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/interrupt.h"
+#include "config/configuration.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/recording/csv_stream.h"
-#include "gapscope/results/stream_lines.h"
+#include "recording/csv_stream.h"
+#include "results/stream_lines.h"
 
 namespace gapscope::cli {
 namespace {

@@ -1,18 +1,18 @@
 // `diagnose`: what the simulation of a drive lacks, from recordings of it.
-#include "gapscope/commands/diagnose.h"
+#include "commands/diagnose.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "base/interrupt.h"
+#include "base/plain_name.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/text.h"
-#include "gapscope/commands/axis.h"
-#include "gapscope/commands/drive_folder.h"
-#include "gapscope/commands/leave_one_out.h"
+#include "commands/axis.h"
+#include "commands/drive_folder.h"
+#include "commands/leave_one_out.h"
 
 namespace gapscope::cli {
 namespace {

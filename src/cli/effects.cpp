@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope::cli {

@@ -1,23 +1,23 @@
 // `run`, `detect` and `fit`: the same pipeline with both estimators, or one of them.
-#include "gapscope/commands/estimate.h"
+#include "commands/estimate.h"
 
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "base/interrupt.h"
+#include "base/plain_name.h"
+#include "base/shell_word.h"
+#include "base/shown.h"
+#include "changes/changes.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/detect_stream.h"
 #include "cli/field_help.h"
+#include "commands/axis.h"
+#include "commands/drive_folder.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/shell_word.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/changes/changes.h"
-#include "gapscope/commands/axis.h"
-#include "gapscope/commands/drive_folder.h"
-#include "gapscope/report/changes_report.h"
+#include "report/changes_report.h"
 
 namespace gapscope::cli {
 namespace {

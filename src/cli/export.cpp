@@ -1,5 +1,5 @@
 // `export`: the drive in the format of a simulator, with a certificate.
-#include "gapscope/commands/export.h"
+#include "commands/export.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
-#include "gapscope/config/joint_numbers.h"
+#include "config/joint_numbers.h"
 
 namespace gapscope::cli {
 namespace {

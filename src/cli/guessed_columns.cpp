@@ -4,14 +4,14 @@
 
 #include <filesystem>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/presets.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
-#include "gapscope/inspection/column_guess.h"
-#include "gapscope/recording/axes.h"
-#include "gapscope/recording/column_name.h"
+#include "inspection/column_guess.h"
+#include "recording/axes.h"
+#include "recording/column_name.h"
 
 namespace gapscope::cli {
 namespace {

@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/input_facts.h"
+#include "base/plain_name.h"
+#include "base/shell_word.h"
+#include "base/shown.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/presets.h"
+#include "config/starter.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_facts.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/shell_word.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/config/starter.h"
 
 namespace gapscope::cli {
 namespace {

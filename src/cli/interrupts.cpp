@@ -11,8 +11,8 @@
 #include <system_error>
 #include <thread>
 
-#include "gapscope/base/at_once.h"
-#include "gapscope/base/interrupt.h"
+#include "base/at_once.h"
+#include "base/interrupt.h"
 
 namespace gapscope::cli {
 namespace {

@@ -10,12 +10,12 @@
 #include <new>
 #include <string>
 
+#include "base/shown.h"
 #include "cli/commands.h"
 #include "cli/interrupts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/version.h"
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 
 namespace gapscope::cli {
 namespace {

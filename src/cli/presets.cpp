@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
-#include "gapscope/recording/axes.h"
+#include "recording/axes.h"
 
 namespace gapscope::cli {
 namespace {

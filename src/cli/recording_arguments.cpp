@@ -5,14 +5,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/move_file.h"
+#include "base/shown.h"
 #include "cli/commands.h"
 #include "cli/presets.h"
+#include "commands/axis.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/move_file.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/commands/axis.h"
-#include "gapscope/recording/axes.h"
-#include "gapscope/recording/column_name.h"
+#include "recording/axes.h"
+#include "recording/column_name.h"
 
 namespace gapscope::cli {
 

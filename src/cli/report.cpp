@@ -1,5 +1,5 @@
 // `report`: draws a report again from what is stored.
-#include "gapscope/report/report.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 
@@ -11,14 +11,14 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/report/blind_report.h"
-#include "gapscope/report/campaign_report.h"
-#include "gapscope/report/changes_report.h"
-#include "gapscope/results/blind_score.h"
-#include "gapscope/results/campaign_summary.h"
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/report_folder.h"
-#include "gapscope/results/run_result.h"
+#include "report/blind_report.h"
+#include "report/campaign_report.h"
+#include "report/changes_report.h"
+#include "results/blind_score.h"
+#include "results/campaign_summary.h"
+#include "results/diagnosis_result.h"
+#include "results/report_folder.h"
+#include "results/run_result.h"
 
 namespace gapscope::cli {
 namespace {

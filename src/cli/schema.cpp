@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "config/configuration_schema.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration_schema.h"
-#include "gapscope/results/json_schemas.h"
+#include "results/json_schemas.h"
 
 namespace gapscope::cli {
 namespace {

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/interrupt.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/field_help.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::cli {
 namespace {

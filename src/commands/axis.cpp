@@ -1,13 +1,13 @@
-#include "gapscope/commands/axis.h"
+#include "commands/axis.h"
 
 #include <fmt/format.h>
 
 #include <set>
 
+#include "base/plain_name.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/recording/axes.h"
+#include "recording/axes.h"
 
 namespace gapscope {
 namespace {

@@ -1,14 +1,14 @@
-#include "gapscope/commands/check.h"
+#include "commands/check.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
+#include "base/input_facts.h"
+#include "base/require.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_facts.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
-#include "gapscope/results/inspection_result.h"
+#include "results/inspection_result.h"
 
 namespace gapscope {
 namespace {

@@ -1,16 +1,16 @@
-#include "gapscope/commands/diagnose.h"
+#include "commands/diagnose.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "base/interrupt.h"
+#include "config/begun_model.h"
+#include "diagnosis/begin.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/config/begun_model.h"
-#include "gapscope/diagnosis/begin.h"
-#include "gapscope/report/report.h"
-#include "gapscope/results/drive_card.h"
+#include "report/report.h"
+#include "results/drive_card.h"
 
 namespace gapscope {
 namespace {

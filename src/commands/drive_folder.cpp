@@ -1,6 +1,6 @@
-#include "gapscope/commands/drive_folder.h"
+#include "commands/drive_folder.h"
 
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope {
 

@@ -1,9 +1,9 @@
-#include "gapscope/commands/estimate.h"
+#include "commands/estimate.h"
 
 #include <filesystem>
 
-#include "gapscope/report/report.h"
-#include "gapscope/results/drive_card.h"
+#include "report/report.h"
+#include "results/drive_card.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/commands/export.h"
+#include "commands/export.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/interrupt.h"
+#include "base/percents.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/percents.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/run_result.h"
 #include "gapscope/telling/card.h"
+#include "results/diagnosis_result.h"
+#include "results/run_result.h"
 
 namespace gapscope {
 namespace {

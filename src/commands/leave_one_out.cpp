@@ -1,4 +1,4 @@
-#include "gapscope/commands/leave_one_out.h"
+#include "commands/leave_one_out.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace {

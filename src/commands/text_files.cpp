@@ -1,4 +1,4 @@
-#include "gapscope/commands/text_files.h"
+#include "commands/text_files.h"
 
 #include <ostream>
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "config/campaign_config.h"
 #include "config/yaml_value.h"
-#include "gapscope/config/campaign_config.h"
 
 namespace gapscope::internal::config {
 

@@ -1,4 +1,4 @@
-#include "gapscope/config/blind_config.h"
+#include "config/blind_config.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 
 #include "config/configuration_reader.h"
 #include "config/field_reader.h"
+#include "config/implant_config.h"
 #include "config/yaml_document.h"
 #include "config/yaml_writer.h"
-#include "gapscope/config/implant_config.h"
 
 namespace gapscope {
 

@@ -1,4 +1,4 @@
-#include "gapscope/config/campaign_config.h"
+#include "config/campaign_config.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

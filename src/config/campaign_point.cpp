@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
+#include "base/require.h"
 #include "config/axis_reader.h"
 #include "config/configuration_reader.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
 
 namespace gapscope {
 namespace internal::config {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "gapscope/config/campaign_config.h"
+#include "config/campaign_config.h"
 
 namespace gapscope::internal::config {
 

@@ -1,4 +1,4 @@
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "base/plain_name.h"
+#include "base/require.h"
 #include "config/anchor_reader.h"
 #include "config/configuration_reader.h"
 #include "config/controller_reader.h"
@@ -19,11 +21,9 @@
 #include "config/going_on.h"
 #include "config/independent_effects.h"
 #include "config/model_reader.h"
-#include "config/setting.h"
+#include "config/overlaid.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/require.h"
 
 namespace gapscope {
 namespace internal::config {

@@ -1,9 +1,10 @@
-#include "gapscope/config/configuration_schema.h"
+#include "config/configuration_schema.h"
 
 #include <array>
 #include <cmath>
 
 #include "config/anchor_reader.h"
+#include "config/configuration.h"
 #include "config/controller_reader.h"
 #include "config/data_reader.h"
 #include "config/file_facts.h"
@@ -13,7 +14,6 @@
 #include "config/schema_rules.h"
 #include "config/schema_units.h"
 #include "config/units_reader.h"
-#include "gapscope/config/configuration.h"
 #include "gapscope/plant/effect.h"
 
 namespace gapscope {

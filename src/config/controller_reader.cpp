@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "config/parameter_setting.h"
 #include "config/schema_rules.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "config/configuration.h"
 #include "config/schema_parts.h"
 #include "config/yaml_value.h"
 #include "config/yaml_writer.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope::internal::config {
 

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <set>
 
+#include "base/shown.h"
 #include "config/field_reader.h"
 #include "config/file_facts.h"
 #include "config/units_reader.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/recording/column_name.h"
+#include "recording/column_name.h"
 
 namespace gapscope {
 

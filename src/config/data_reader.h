@@ -1,7 +1,7 @@
 #pragma once
 
+#include "config/data_config.h"
 #include "config/yaml_value.h"
-#include "gapscope/config/data_config.h"
 
 namespace gapscope::internal::config {
 

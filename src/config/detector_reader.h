@@ -1,7 +1,7 @@
 #pragma once
 
+#include "config/configuration.h"
 #include "config/yaml_value.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope::internal::config {
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "config/model_reader.h"
 #include "config/parameter_setting.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 #include "gapscope/simulation/simulate.h"
 
 namespace gapscope {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/config/begun_model.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/recording/supply.h"
-#include "gapscope/reference/fitted_numbers.h"
+#include "base/require.h"
+#include "base/shown.h"
+#include "config/begun_model.h"
+#include "config/configuration.h"
+#include "recording/supply.h"
+#include "reference/fitted_numbers.h"
 
 namespace gapscope {
 namespace {

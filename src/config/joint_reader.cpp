@@ -8,9 +8,9 @@
 #include <cstring>
 #include <sstream>
 
+#include "base/shown.h"
 #include "config/mjcf_include.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope {
 namespace internal::config {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/config/joint_numbers.h"
+#include "config/joint_numbers.h"
 
 namespace gapscope::internal::config {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <system_error>
 
+#include "base/input_file.h"
+#include "base/shown.h"
 #include "config/mjcf.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope::internal::config {
 namespace {

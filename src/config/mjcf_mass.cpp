@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/shown.h"
 #include "config/mjcf_turn.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "config/model_config.h"
 #include "config/yaml_value.h"
-#include "gapscope/config/model_config.h"
 
 namespace gapscope::internal::config {
 

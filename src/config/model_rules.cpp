@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/require.h"
 #include "config/model_reader.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
 
 namespace gapscope {
 namespace internal::config {

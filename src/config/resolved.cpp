@@ -7,12 +7,12 @@
 #include <tuple>
 
 #include "config/anchor_reader.h"
+#include "config/configuration.h"
 #include "config/controller_reader.h"
 #include "config/file_facts.h"
 #include "config/parameter_setting.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <initializer_list>
 
+#include "config/data_config.h"
 #include "config/schema_rules.h"
-#include "gapscope/config/data_config.h"
-#include "gapscope/recording/unit_names.h"
+#include "recording/unit_names.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -1,12 +1,11 @@
-#include "config/setting.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "base/shown.h"
+#include "config/overlaid.h"
 #include "config/yaml_document.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope {
 namespace internal::config {

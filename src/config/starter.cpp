@@ -1,4 +1,4 @@
-#include "gapscope/config/starter.h"
+#include "config/starter.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/plain_name.h"
+#include "base/shown.h"
 #include "config/controller_reader.h"
 #include "config/data_reader.h"
 #include "config/starter_choice.h"
@@ -15,8 +17,6 @@
 #include "config/starter_order.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
-#include "gapscope/base/plain_name.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/inspection/inspection.h"
 
 namespace gapscope {

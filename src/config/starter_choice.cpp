@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 #include "gapscope/sliding_mode/detector.h"
 
 namespace gapscope::internal::config {

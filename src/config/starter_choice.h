@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "gapscope/config/starter.h"
+#include "config/starter.h"
 
 namespace gapscope::internal::config {
 

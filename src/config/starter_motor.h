@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "config/joint_numbers.h"
+#include "config/model_config.h"
+#include "config/starter.h"
 #include "config/yaml_writer.h"
-#include "gapscope/config/joint_numbers.h"
-#include "gapscope/config/model_config.h"
-#include "gapscope/config/starter.h"
 
 /// What a first configuration says of the motor, and of the scale of its torques.
 namespace gapscope::internal::config {

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "gapscope/base/shell_word.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/inspection/reach.h"
+#include "base/shell_word.h"
+#include "base/shown.h"
 #include "gapscope/recording/recording_file.h"
+#include "inspection/reach.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "config/data_config.h"
 #include "gapscope/base/coordinates.h"
-#include "gapscope/config/data_config.h"
 
 namespace gapscope::internal::config {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "config/field_reader.h"
-#include "gapscope/recording/column_name.h"
+#include "recording/column_name.h"
 
 namespace gapscope {
 namespace {

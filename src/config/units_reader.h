@@ -1,8 +1,8 @@
 #pragma once
 
+#include "config/data_config.h"
 #include "config/yaml_value.h"
 #include "config/yaml_writer.h"
-#include "gapscope/config/data_config.h"
 
 namespace gapscope::internal::config {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/input_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::config {
 namespace {

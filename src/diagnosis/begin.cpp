@@ -1,4 +1,4 @@
-#include "gapscope/diagnosis/begin.h"
+#include "diagnosis/begin.h"
 
 #include "diagnosis/held_out.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cut_short.h"
 #include "diagnosis/study.h"
-#include "gapscope/base/cut_short.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -1,9 +1,9 @@
-#include "gapscope/diagnosis/comparison.h"
+#include "diagnosis/comparison.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 
 namespace gapscope {
 

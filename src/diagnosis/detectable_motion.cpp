@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
+#include "base/text.h"
 #include "diagnosis/detectable.h"
 #include "diagnosis/exemplary_effect.h"
 #include "diagnosis/held_out_change.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

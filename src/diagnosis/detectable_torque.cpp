@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/text.h"
 #include "diagnosis/detectable.h"
 #include "diagnosis/torque_model.h"
 #include "diagnosis/torque_search.h"
-#include "gapscope/base/text.h"
 #include "torque_view/implanted_ladder.h"
 
 namespace gapscope::internal::diagnosis {

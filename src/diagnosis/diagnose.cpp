@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/cut_short.h"
+#include "base/require.h"
 #include "diagnosis/detectable.h"
 #include "diagnosis/evidence.h"
 #include "diagnosis/further.h"
@@ -16,9 +18,7 @@
 #include "diagnosis/step.h"
 #include "diagnosis/supply_steps.h"
 #include "diagnosis/verdict.h"
-#include "gapscope/base/cut_short.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::internal::diagnosis {
 

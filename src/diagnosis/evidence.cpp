@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/mismatch_size.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {

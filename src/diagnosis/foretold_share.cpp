@@ -1,4 +1,4 @@
-#include "gapscope/diagnosis/foretold_share.h"
+#include "diagnosis/foretold_share.h"
 
 #include <algorithm>
 

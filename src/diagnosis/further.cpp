@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/probability.h"
 #include "diagnosis/step.h"
-#include "gapscope/base/interrupt.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/numbers.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

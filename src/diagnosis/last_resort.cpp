@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
 #include "diagnosis/law_fit.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/place.h"
 #include "diagnosis/step.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/normal.h"
 #include "diagnosis/last_resort.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/tell_budget.h"
-#include "gapscope/base/normal.h"
 #include "plant/effects/node_curve.h"
 #include "signals/one_body.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/simulation/closed_loop.h"
 #include "reference/observer.h"
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/require.h"
 #include "diagnosis/few_recordings.h"
 #include "diagnosis/loop_numbers.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/require.h"
 #include "gapscope/simulation/closed_loop.h"
 
 namespace gapscope {

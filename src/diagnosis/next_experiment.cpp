@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/require.h"
+#include "base/text.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/counted.h"
 #include "diagnosis/experiment_library.h"
 #include "diagnosis/held_out.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
 #include "gapscope/simulation/simulate.h"
 #include "signals/encoder.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

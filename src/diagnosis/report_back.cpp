@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/text.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/open_question.h"
 #include "diagnosis/periodic_torque.h"
@@ -17,8 +18,7 @@
 #include "diagnosis/tell_intervals.h"
 #include "diagnosis/under_controller.h"
 #include "diagnosis/where.h"
-#include "gapscope/base/text.h"
-#include "gapscope/recording/supply.h"
+#include "recording/supply.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -1,9 +1,9 @@
-#include "gapscope/diagnosis/second_encoder.h"
+#include "diagnosis/second_encoder.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/diagnosis/comparison.h"
+#include "diagnosis/comparison.h"
 #include "signals/encoder.h"
 
 namespace gapscope {

@@ -1,17 +1,17 @@
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/require.h"
+#include "base/shared_unit.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/simulator_rows.h"
 #include "diagnosis/stand_in.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/shared_unit.h"
 
 namespace gapscope {
 namespace internal::diagnosis {

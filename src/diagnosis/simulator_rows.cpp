@@ -1,6 +1,6 @@
 #include "diagnosis/simulator_rows.h"
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 
 namespace gapscope {
 namespace {

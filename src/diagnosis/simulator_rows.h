@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/side.h"
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 
 namespace gapscope::internal::diagnosis {
 

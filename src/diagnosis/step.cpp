@@ -9,12 +9,12 @@
 #include <optional>
 #include <set>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/require.h"
 #include "diagnosis/counted.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/ranking.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/require.h"
 #include "signals/one_body.h"
 
 namespace gapscope {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/require.h"
 #include "diagnosis/few_recordings.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/require.h"
 #include "signals/encoder.h"
 #include "signals/period.h"
 

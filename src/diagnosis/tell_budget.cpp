@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/rule.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace internal::diagnosis {

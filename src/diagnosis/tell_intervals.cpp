@@ -8,9 +8,9 @@
 #include <functional>
 #include <utility>
 
+#include "base/normal.h"
 #include "diagnosis/tell_budget.h"
 #include "diagnosis/told_facts.h"
-#include "gapscope/base/normal.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

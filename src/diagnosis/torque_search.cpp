@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/require.h"
 #include "diagnosis/torque_model.h"
-#include "gapscope/base/require.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

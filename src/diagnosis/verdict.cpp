@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/text.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/report_back.h"
 #include "diagnosis/rule.h"
 #include "diagnosis/told_facts.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -7,10 +7,10 @@
 #include <complex>
 #include <functional>
 
+#include "base/decimals.h"
 #include "diagnosis/harmonics.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/place.h"
-#include "gapscope/base/decimals.h"
 #include "signals/encoder.h"
 #include "signals/local_motion.h"
 #include "torque_view/low_pass.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::engine_plant {
 namespace {

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "base/random.h"
 #include "engine_plant/drive_xml.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope::engine_plant {
 namespace {

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <memory>
 
+#include "base/require.h"
+#include "base/text.h"
 #include "exports/carried.h"
 #include "exports/stiff_contact.h"
 #include "exports/target_errors.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::exports {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "exports/export.h"
 #include "exports/export_source.h"
-#include "gapscope/exports/export.h"
 
 namespace gapscope::internal::exports {
 

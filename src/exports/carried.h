@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "exports/export_source.h"
-#include "gapscope/results/carriage.h"
 #include "gapscope/results/certificate.h"
+#include "results/carriage.h"
 
 namespace gapscope::internal::exports {
 

@@ -2,11 +2,11 @@
 #include <iterator>
 
 #include "exports/c_header.h"
+#include "exports/export.h"
 #include "exports/flat.h"
 #include "exports/left_out.h"
 #include "exports/mjcf.h"
 #include "gapscope/base/version.h"
-#include "gapscope/exports/export.h"
 
 namespace gapscope {
 namespace {

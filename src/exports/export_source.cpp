@@ -6,12 +6,12 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/shown.h"
+#include "config/begun_model.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/config/begun_model.h"
-#include "gapscope/run/run_pipeline.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/stepper.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::internal::exports {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "config/configuration.h"
+#include "config/joint_numbers.h"
 #include "exports/offset_mass.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/config/joint_numbers.h"
 #include "gapscope/plant/plant_model.h"
 
 namespace gapscope::internal::exports {

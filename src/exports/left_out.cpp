@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/results/carriage.h"
+#include "results/carriage.h"
 
 namespace gapscope::internal::exports {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "exports/export.h"
 #include "exports/export_source.h"
-#include "gapscope/exports/export.h"
 
 namespace gapscope::internal::exports {
 

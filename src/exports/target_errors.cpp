@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 
 namespace gapscope::internal::exports {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "implant/smoothed_motion.h"
 

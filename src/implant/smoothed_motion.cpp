@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::internal::implant {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::independent_plant {

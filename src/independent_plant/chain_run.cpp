@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <deque>
 
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "independent_plant/run_recorder.h"
 
 namespace gapscope::independent_plant {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "independent_plant/family_laws.h"
 
 namespace gapscope::independent_plant {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::independent_plant {
 namespace {

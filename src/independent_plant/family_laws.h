@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "independent_plant/family.h"
 
 namespace gapscope::independent_plant {

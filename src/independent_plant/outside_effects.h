@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "independent_plant/severity.h"
 
 namespace gapscope::independent_plant {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::independent_plant {

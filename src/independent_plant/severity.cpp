@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "independent_plant/outside_effects.h"
 
 namespace gapscope::independent_plant {

@@ -1,6 +1,6 @@
 #include "independent_plant/simulate.h"
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "independent_plant/run_recorder.h"
 
 namespace gapscope::independent_plant {

@@ -1,4 +1,4 @@
-#include "gapscope/inspection/column_guess.h"
+#include "inspection/column_guess.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,14 +9,14 @@
 #include <optional>
 #include <string_view>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
-#include "gapscope/recording/axes.h"
-#include "gapscope/recording/column_name.h"
-#include "gapscope/recording/register_look.h"
 #include "inspection/column_words.h"
+#include "recording/axes.h"
+#include "recording/column_name.h"
+#include "recording/register_look.h"
 #include "recording/table_form.h"
 
 namespace gapscope {

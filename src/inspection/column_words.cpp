@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "gapscope/base/text.h"
-#include "gapscope/recording/column_name.h"
+#include "base/text.h"
+#include "recording/column_name.h"
 
 namespace gapscope::internal::inspection {
 namespace {

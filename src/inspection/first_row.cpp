@@ -1,4 +1,4 @@
-#include "gapscope/inspection/first_row.h"
+#include "inspection/first_row.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,9 +9,9 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-#include "gapscope/recording/register_look.h"
 #include "inspection/rules.h"
 #include "inspection/switched_off.h"
+#include "recording/register_look.h"
 #include "signals/noise.h"
 
 namespace gapscope::internal::inspection {

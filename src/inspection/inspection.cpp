@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/recording/recording_file.h"
 #include "inspection/rules.h"
 #include "recording/resample.h"

@@ -1,4 +1,4 @@
-#include "gapscope/inspection/reach.h"
+#include "inspection/reach.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/recording/lost_rows.h"
 #include "inspection/rules.h"
+#include "recording/lost_rows.h"
 
 namespace gapscope::internal::inspection {
 namespace {

@@ -1,4 +1,4 @@
-#include "gapscope/plant/acceleration_bound.h"
+#include "plant/acceleration_bound.h"
 
 namespace gapscope {
 

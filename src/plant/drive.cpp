@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/plant/effect_hooks.h"
-#include "gapscope/plant/rival_laws.h"
+#include "plant/rival_laws.h"
 
 namespace gapscope {
 

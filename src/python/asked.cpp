@@ -8,9 +8,9 @@
 #include <iterator>
 #include <ostream>
 
+#include "commands/axis.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/commands/axis.h"
 
 namespace gapscope::internal::python {
 namespace {

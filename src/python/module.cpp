@@ -5,16 +5,16 @@
 
 #include <filesystem>
 
+#include "commands/check.h"
+#include "commands/diagnose.h"
+#include "commands/drive_folder.h"
+#include "commands/estimate.h"
+#include "commands/export.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
-#include "gapscope/commands/check.h"
-#include "gapscope/commands/diagnose.h"
-#include "gapscope/commands/drive_folder.h"
-#include "gapscope/commands/estimate.h"
-#include "gapscope/commands/export.h"
-#include "gapscope/results/drive_card.h"
 #include "python/asked.h"
 #include "python/watched_work.h"
+#include "results/drive_card.h"
 
 namespace gapscope::internal::python {
 namespace {

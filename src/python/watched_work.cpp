@@ -4,7 +4,7 @@
 #include <future>
 #include <mutex>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 
 namespace gapscope::internal::python {
 namespace {

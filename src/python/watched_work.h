@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::internal::python {
 

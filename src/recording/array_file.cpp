@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/limits.h"
 
 namespace gapscope::internal::recording {

@@ -1,4 +1,4 @@
-#include "gapscope/recording/axes.h"
+#include "recording/axes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 #include <cctype>
 #include <fstream>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/base/text.h"
 #include "recording/array_file.h"
 #include "recording/csv_row.h"
 #include "recording/file_kind.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 #include "recording/recorded_rows.h"
 

@@ -1,4 +1,4 @@
-#include "gapscope/recording/column_name.h"
+#include "recording/column_name.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include "gapscope/recording/controller.h"
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope {
 

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
 #include "recording/array_file.h"
 #include "recording/limits.h"

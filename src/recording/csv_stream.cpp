@@ -1,4 +1,4 @@
-#include "gapscope/recording/csv_stream.h"
+#include "recording/csv_stream.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/csv_row.h"
 #include "recording/limits.h"
 #include "recording/recorded_rows.h"

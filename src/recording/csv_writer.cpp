@@ -3,10 +3,10 @@
 #include <iterator>
 #include <ostream>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "gapscope/base/whole_file.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/recording/supply.h"
+#include "recording/supply.h"
 
 namespace gapscope {
 namespace {

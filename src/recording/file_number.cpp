@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/recording/recording_file.h"
 #include "recording/file_kind.h"
 #include "recording/recorded_rows.h"

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/shown.h"
+#include "base/interrupt.h"
+#include "base/shown.h"
 
 namespace gapscope::internal::recording {
 namespace {

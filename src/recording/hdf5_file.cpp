@@ -7,9 +7,9 @@
 #include <functional>
 #include <stdexcept>
 
+#include "base/run_apart.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/run_apart.h"
-#include "gapscope/base/shown.h"
 #include "recording/array_file.h"
 
 namespace gapscope::internal::recording {

@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::recording {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <map>
 
+#include "base/shown.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 #include "recording/json_path.h"
 #include "recording/limits.h"
 #include "recording/log_file.h"

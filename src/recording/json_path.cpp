@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 
 namespace gapscope::internal::recording {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/limits.h"
 
 namespace gapscope::internal::recording {

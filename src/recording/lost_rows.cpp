@@ -1,4 +1,4 @@
-#include "gapscope/recording/lost_rows.h"
+#include "recording/lost_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/run_apart.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/run_apart.h"
 #include "recording/mat_element.h"
 #include "recording/mat_file.h"
 #include "recording/recorded_rows.h"

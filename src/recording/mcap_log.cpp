@@ -7,8 +7,8 @@
 #include <fstream>
 #include <map>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/message_log.h"
 #include "recording/recorded_rows.h"
 #include "recording/unpack.h"

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 #include "recording/message_log.h"
 #include "recording/ros_message.h"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <map>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/array_file.h"
 #include "recording/npy_header.h"
 #include "recording/recorded_rows.h"

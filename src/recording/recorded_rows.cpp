@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/input_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/recording/axes.h"
+#include "recording/axes.h"
 #include "recording/file_kind.h"
 #include "recording/limits.h"
 

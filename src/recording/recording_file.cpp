@@ -9,8 +9,8 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/lost_rows.h"
 #include "recording/limits.h"
+#include "recording/lost_rows.h"
 #include "recording/recorded_rows.h"
 #include "recording/resample.h"
 

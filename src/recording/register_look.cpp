@@ -1,4 +1,4 @@
-#include "gapscope/recording/register_look.h"
+#include "recording/register_look.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/require.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
 #include "recording/limits.h"
 
 namespace gapscope::internal::recording {

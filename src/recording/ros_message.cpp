@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 
 namespace gapscope::internal::recording {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <map>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "recording/foreign_database.h"
 #include "recording/message_log.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/recording/csv_stream.h"
+#include "recording/csv_stream.h"
 
 namespace gapscope::internal::recording {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <map>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "recording/file_kind.h"
 #include "recording/recorded_rows.h"
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "gapscope/recording/column_name.h"
+#include "recording/column_name.h"
 #include "recording/table_form.h"
 
 namespace gapscope::internal::recording {

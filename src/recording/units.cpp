@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "gapscope/recording/unit_names.h"
+#include "recording/unit_names.h"
 
 namespace gapscope {
 namespace {

@@ -8,7 +8,7 @@
 #include <zstd.h>
 #endif
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 
 namespace gapscope::internal::recording {
 namespace {

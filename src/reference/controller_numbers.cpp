@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
-#include "gapscope/base/text.h"
-#include "gapscope/recording/supply.h"
+#include "base/require.h"
+#include "base/text.h"
+#include "recording/supply.h"
 #include "reference/torque_scale.h"
 
 namespace gapscope::internal::reference {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "reference/controller_numbers.h"
 #include "reference/torque_scale.h"
 #include "signals/encoder.h"

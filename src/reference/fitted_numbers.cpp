@@ -1,4 +1,4 @@
-#include "gapscope/reference/fitted_numbers.h"
+#include "reference/fitted_numbers.h"
 
 #include <cmath>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/base/remark.h"
 #include "reference/information.h"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
+#include "base/interrupt.h"
+#include "base/parallel.h"
 #include "reference/fit_problem.h"
 
 namespace gapscope::internal::reference {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/random.h"
+#include "base/interrupt.h"
+#include "base/random.h"
 #include "reference/excerpt.h"
 #include "reference/information.h"
 #include "reference/starts.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/normal.h"
+#include "base/interrupt.h"
+#include "base/normal.h"
 
 namespace gapscope::internal::reference {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/cut_short.h"
+#include "base/cut_short.h"
 
 namespace gapscope::internal::reference {
 namespace {

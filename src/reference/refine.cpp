@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 #include "reference/solvers.h"
 
 namespace gapscope::internal::reference {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 
 namespace gapscope::internal::reference {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 #include "reference/excerpt.h"
 #include "reference/information.h"
 #include "reference/starts.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "gapscope/base/interrupt.h"
+#include "base/interrupt.h"
 #include "reference/ceres_terms.h"
 #include "reference/solvers.h"
 

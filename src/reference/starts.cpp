@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "reference/excerpt.h"
 #include "signals/local_motion.h"
 

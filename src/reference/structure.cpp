@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "gapscope/plant/rival_laws.h"
+#include "plant/rival_laws.h"
 
 namespace gapscope::internal::reference {
 namespace {

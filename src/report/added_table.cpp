@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "gapscope/base/text.h"
-#include "gapscope/results/drive_card.h"
+#include "base/text.h"
 #include "report/markdown.h"
 #include "report/wording.h"
+#include "results/drive_card.h"
 
 namespace gapscope::internal::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "gapscope/results/diagnosis_result.h"
+#include "results/diagnosis_result.h"
 
 namespace gapscope::internal::report {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "report/rich_text.h"
 
 namespace gapscope::internal::report {

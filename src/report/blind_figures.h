@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "gapscope/results/blind_score.h"
 #include "report/figure_data.h"
+#include "results/blind_score.h"
 
 namespace gapscope::internal::report {
 

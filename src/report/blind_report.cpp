@@ -1,14 +1,14 @@
-#include "gapscope/report/blind_report.h"
+#include "report/blind_report.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "gapscope/results/blind_score.h"
 #include "report/blind_figures.h"
 #include "report/implant_report.h"
 #include "report/markdown.h"
 #include "report/report_files.h"
+#include "results/blind_score.h"
 
 namespace gapscope {
 namespace internal::report {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
 #include "report/figure_data.h"
+#include "results/diagnosis_result.h"
 
 /// The correcting torque as figures show it: in the band in which the error budget judges it, at a scale that
 /// shows what it tells.

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/campaign_summary.h"
 #include "report/figure_data.h"
+#include "results/campaign_summary.h"
 
 namespace gapscope::internal::report {
 

@@ -1,4 +1,4 @@
-#include "gapscope/report/campaign_report.h"
+#include "report/campaign_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

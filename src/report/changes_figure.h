@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gapscope/results/drive_changes.h"
 #include "report/figure_data.h"
+#include "results/drive_changes.h"
 
 namespace gapscope::internal::report {
 

@@ -1,4 +1,4 @@
-#include "gapscope/report/changes_report.h"
+#include "report/changes_report.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/drive_changes.h"
+#include "results/drive_changes.h"
 
 /// What a comparison says, in words of its codes and numbers.
 namespace gapscope::internal::report {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/percents.h"
-#include "gapscope/base/text.h"
+#include "base/percents.h"
+#include "base/text.h"
 #include "report/rich_text.h"
 #include "report/ticks.h"
 #include "report/wording.h"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "gapscope/results/diagnosis_result.h"
 #include "report/figure_data.h"
+#include "results/diagnosis_result.h"
 
 namespace gapscope::internal::report {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "base/text.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 #include "report/budget_band.h"
 #include "report/detectable.h"
 #include "report/diagnosis_words.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
 #include "report/figure_data.h"
+#include "results/diagnosis_result.h"
 
 namespace gapscope::internal::report {
 

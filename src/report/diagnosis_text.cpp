@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "gapscope/base/decimals.h"
-#include "gapscope/base/percents.h"
-#include "gapscope/base/text.h"
+#include "base/decimals.h"
+#include "base/percents.h"
+#include "base/text.h"
 #include "report/added_table.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"

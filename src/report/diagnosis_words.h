@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "gapscope/base/text.h"
-#include "gapscope/results/diagnosis_result.h"
+#include "base/text.h"
 #include "report/figure_data.h"
 #include "report/wording.h"
+#include "results/diagnosis_result.h"
 
 /// What the figures of a diagnosis call things.
 namespace gapscope::internal::report {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/percents.h"
-#include "gapscope/base/text.h"
+#include "base/percents.h"
+#include "base/text.h"
 #include "report/diagnosis_words.h"
 #include "report/rich_text.h"
 #include "report/wording.h"

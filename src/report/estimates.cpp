@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "report/figures.h"
 #include "report/wording.h"
 

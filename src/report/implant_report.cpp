@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "report/markdown.h"
 #include "report/rich_text.h"
 

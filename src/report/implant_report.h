@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/blind_score.h"
 #include "report/figure_data.h"
+#include "results/blind_score.h"
 
 namespace gapscope::internal::report {
 

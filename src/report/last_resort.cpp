@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "report/diagnosis_words.h"
 #include "report/wording.h"
 

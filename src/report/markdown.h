@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
+#include "results/diagnosis_result.h"
+#include "results/run_result.h"
 
 namespace gapscope::internal::report {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/text.h"
+#include "base/parallel.h"
+#include "base/text.h"
 #include "report/figures.h"
 #include "report/rich_text.h"
 #include "report/wording.h"

@@ -1,4 +1,4 @@
-#include "gapscope/report/recording_picture.h"
+#include "report/recording_picture.h"
 
 #include <numeric>
 

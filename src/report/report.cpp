@@ -1,17 +1,17 @@
-#include "gapscope/report/report.h"
+#include "report/report.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <optional>
 
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/run_result.h"
 #include "report/diagnosis_figures.h"
 #include "report/figures.h"
 #include "report/report_files.h"
 #include "report/report_view.h"
 #include "report/story.h"
+#include "results/diagnosis_result.h"
+#include "results/run_result.h"
 
 namespace gapscope {
 namespace {

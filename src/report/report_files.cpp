@@ -9,7 +9,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "gapscope/base/parallel.h"
+#include "base/parallel.h"
 #include "gapscope/base/whole_file.h"
 #include "report/draw_figure.h"
 #include "report/panel_plan.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/report/figure_formats.h"
 #include "report/figure_data.h"
+#include "report/figure_formats.h"
 #include "report/html_page.h"
 
 namespace gapscope::internal::report {

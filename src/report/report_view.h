@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
+#include "results/run_result.h"
 
 namespace gapscope::internal::report {
 

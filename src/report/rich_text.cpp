@@ -1,6 +1,6 @@
 #include "report/rich_text.h"
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::internal::report {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/require.h"
+#include "base/parallel.h"
+#include "base/require.h"
 #include "report/figure_data.h"
 
 namespace gapscope::internal::report {

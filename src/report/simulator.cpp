@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/decimals.h"
-#include "gapscope/base/text.h"
+#include "base/decimals.h"
+#include "base/text.h"
 #include "report/markdown.h"
 #include "report/wording.h"
 

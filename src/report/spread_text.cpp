@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "gapscope/base/normal.h"
-#include "gapscope/report/changes_report.h"
+#include "base/normal.h"
+#include "report/changes_report.h"
 #include "report/changes_words.h"
 
 namespace gapscope {

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 
-#include "gapscope/base/text.h"
-#include "gapscope/results/drive_card.h"
+#include "base/text.h"
 #include "report/diagnosis_figures.h"
 #include "report/glossary.h"
 #include "report/markdown.h"
 #include "report/wording.h"
+#include "results/drive_card.h"
 
 namespace gapscope::internal::report {
 namespace {

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/run_result.h"
 #include "report/figure_data.h"
 #include "report/html_page.h"
+#include "results/diagnosis_result.h"
+#include "results/run_result.h"
 
 namespace gapscope::internal::report {
 

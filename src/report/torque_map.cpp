@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 #include "report/budget_band.h"
 #include "report/diagnosis_figures.h"
 #include "report/diagnosis_words.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 
 /// How numbers and findings are put into words. Plain Unicode text, fit for Markdown and figures alike.
 namespace gapscope::internal::report {

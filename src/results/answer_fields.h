@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "gapscope/telling/answer.h"
 #include "results/json_archive.h"
+#include "telling/answer.h"
 
 /// The answer as result.json and diagnosis.json have it.
 namespace gapscope::internal::results {

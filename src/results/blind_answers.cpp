@@ -1,5 +1,5 @@
 #include "gapscope/base/errors.h"
-#include "gapscope/results/blind_files.h"
+#include "results/blind_files.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"

@@ -1,4 +1,4 @@
-#include "gapscope/results/blind_score.h"
+#include "results/blind_score.h"
 
 #include <filesystem>
 

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "results/traces.h"
 
 namespace gapscope::internal::results {

@@ -1,4 +1,4 @@
-#include "gapscope/results/campaign_summary.h"
+#include "results/campaign_summary.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,9 +1,9 @@
-#include "gapscope/results/carriage.h"
+#include "results/carriage.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope {
 namespace {

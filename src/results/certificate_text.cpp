@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 #include "gapscope/results/certificate.h"
 
 namespace gapscope {

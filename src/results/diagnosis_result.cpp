@@ -1,12 +1,12 @@
-#include "gapscope/results/diagnosis_result.h"
+#include "results/diagnosis_result.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/require.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
 #include "results/diagnosis_result_fields.h"
 #include "results/json_schema.h"
 #include "results/traces.h"

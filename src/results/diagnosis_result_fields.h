@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/diagnosis_result.h"
 #include "results/answer_fields.h"
+#include "results/diagnosis_result.h"
 #include "results/doubt_fields.h"
 #include "results/encoder_side_field.h"
 #include "results/error_budget_fields.h"

@@ -1,10 +1,10 @@
-#include "gapscope/results/drive_card.h"
+#include "results/drive_card.h"
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
 
-#include "gapscope/results/carriage.h"
+#include "results/carriage.h"
 
 namespace gapscope {
 namespace {

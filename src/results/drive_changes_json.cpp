@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <iterator>
 
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
-#include "gapscope/results/drive_changes.h"
+#include "results/drive_changes.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gapscope/base/file_hash.h"
+#include "base/file_hash.h"
 
 namespace gapscope::internal::results {
 

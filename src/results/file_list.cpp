@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
-#include "gapscope/results/sha256.h"
 #include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"
+#include "results/sha256.h"
 
 namespace gapscope::internal::results {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/base/file_hash.h"
+#include "base/file_hash.h"
 
 namespace gapscope::internal::results {
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/input_file.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope::internal::results {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/report_folder.h"
 #include "results/file_list.h"
+#include "results/report_folder.h"
 
 /// What is in a folder that a report goes to: what is gapscope's own there, and what is somebody else's.
 namespace gapscope::internal::results {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gapscope/base/input_facts.h"
+#include "base/input_facts.h"
 
 namespace gapscope::internal::results {
 

@@ -1,4 +1,4 @@
-#include "gapscope/results/inspection_result.h"
+#include "results/inspection_result.h"
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"

@@ -11,11 +11,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/input_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
 #include "gapscope/base/whole_file.h"
-#include "gapscope/results/sha256.h"
 #include "results/json_place.h"
+#include "results/sha256.h"
 
 namespace gapscope::internal::results {
 

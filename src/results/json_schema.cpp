@@ -1,6 +1,6 @@
 #include "results/json_schema.h"
 
-#include "gapscope/results/json_schemas.h"
+#include "results/json_schemas.h"
 
 namespace gapscope {
 namespace internal::results {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/move_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/move_file.h"
 #include "results/folder_content.h"
 
 namespace gapscope::internal::results {

@@ -1,4 +1,4 @@
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -10,14 +10,14 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "base/input_file.h"
+#include "base/move_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/move_file.h"
 #include "gapscope/base/version.h"
-#include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"
 #include "results/replace_files.h"
+#include "results/sha256.h"
 #include "results/stored_half.h"
 
 namespace gapscope {

@@ -1,4 +1,4 @@
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/require.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/require.h"
-#include "gapscope/recording/supply.h"
+#include "recording/supply.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
 #include "results/run_result_fields.h"

@@ -1,4 +1,4 @@
-#include "gapscope/results/sha256.h"
+#include "results/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -9,8 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/input_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
 
 namespace gapscope {
 

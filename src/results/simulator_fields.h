@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "results/file_hash_fields.h"
 #include "results/json_archive.h"
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/shown.h"
 #include "results/file_hash_fields.h"
 #include "results/folder_content.h"
 #include "results/json_document.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 
 /// The halves of a drive's report, result.json and diagnosis.json: what each was made from.
 namespace gapscope::internal::results {

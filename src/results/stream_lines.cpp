@@ -1,4 +1,4 @@
-#include "gapscope/results/stream_lines.h"
+#include "results/stream_lines.h"
 
 #include <algorithm>
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/input_file.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
-#include "gapscope/base/shown.h"
 
 namespace gapscope {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/run_result.h"
-#include "gapscope/results/stored_table.h"
+#include "results/run_result.h"
+#include "results/stored_table.h"
 
 namespace gapscope::internal::results {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "config/configuration.h"
 #include "gapscope/base/doubt.h"
-#include "gapscope/config/configuration.h"
 #include "gapscope/inspection/inspection.h"
 
 namespace gapscope::internal::run {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/cut_short.h"
-#include "gapscope/reference/fitted_numbers.h"
+#include "base/cut_short.h"
+#include "reference/fitted_numbers.h"
 #include "run/fitted_command.h"
 
 namespace gapscope::internal::run {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "gapscope/run/run_diagnosis.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope::internal::run {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/text.h"
-#include "gapscope/inspection/first_row.h"
+#include "base/interrupt.h"
+#include "base/text.h"
+#include "inspection/first_row.h"
 
 namespace gapscope::internal::run {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 
 namespace gapscope::internal::run {
 

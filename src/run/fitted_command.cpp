@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::run {
 namespace {

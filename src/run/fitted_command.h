@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::internal::run {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 
 namespace gapscope::internal::run {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gapscope/config/model_config.h"
+#include "config/model_config.h"
 #include "independent_plant/effects.h"
 
 namespace gapscope::internal::run {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "gapscope/config/configuration.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "config/configuration.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope::internal::run {
 

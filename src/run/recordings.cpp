@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/recording/lost_rows.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/sha256.h"
-#include "gapscope/run/run_pipeline.h"
 #include "gapscope/simulation/closed_loop.h"
 #include "gapscope/simulation/simulate.h"
 #include "independent_plant/simulate.h"
+#include "recording/lost_rows.h"
+#include "results/sha256.h"
 #include "run/fastest_motion.h"
 #include "run/independent_effects.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

@@ -1,4 +1,4 @@
-#include "gapscope/run/run_diagnosis.h"
+#include "run/run_diagnosis.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "gapscope/base/cut_short.h"
+#include "base/cut_short.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
 #include "gapscope/base/version.h"
-#include "gapscope/inspection/reach.h"
 #include "gapscope/telling/card.h"
+#include "inspection/reach.h"
 #include "run/checked.h"
 #include "run/closed_loop.h"
 #include "run/doubtful_delay.h"

@@ -1,4 +1,4 @@
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,19 +7,19 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "diagnosis/comparison.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
 #include "gapscope/base/version.h"
-#include "gapscope/diagnosis/comparison.h"
 #include "gapscope/reference/fit.h"
 #include "gapscope/sliding_mode/detector.h"
-#include "gapscope/telling/answer.h"
 #include "run/checked.h"
 #include "run/fitted_command.h"
 #include "run/guess_words.h"
 #include "run/settle_rate.h"
 #include "run/simulated_words.h"
+#include "telling/answer.h"
 
 namespace gapscope {
 namespace {

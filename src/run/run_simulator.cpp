@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <numeric>
 
+#include "base/input_facts.h"
+#include "base/interrupt.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_facts.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
-#include "gapscope/results/sha256.h"
 #include "gapscope/telling/card.h"
+#include "results/sha256.h"
 #include "run/fitted_command.h"
 #include "signals/encoder.h"
 

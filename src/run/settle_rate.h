@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::internal::run {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "gapscope/base/input_file.h"
-#include "gapscope/run/run_pipeline.h"
+#include "base/input_file.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope {
 

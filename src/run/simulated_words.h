@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 
 namespace gapscope::internal::run {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "signals/least_squares.h"
 
 namespace gapscope::internal::signals {

@@ -6,9 +6,9 @@
 #include <deque>
 #include <stdexcept>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
+#include "base/interrupt.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/stepper.h"
 

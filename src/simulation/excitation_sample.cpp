@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/interrupt.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/simulation/excitation.h"
 

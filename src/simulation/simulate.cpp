@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/require.h"
+#include "base/interrupt.h"
+#include "base/random.h"
+#include "base/require.h"
 #include "gapscope/simulation/stepper.h"
 
 namespace gapscope {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "gapscope/base/require.h"
-#include "gapscope/plant/impact.h"
+#include "base/require.h"
+#include "plant/impact.h"
 #include "simulation/guards.h"
 #include "simulation/transition.h"
 

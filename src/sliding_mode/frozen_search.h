@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/sliding_mode/bound_bank.h"
+#include "sliding_mode/bound_bank.h"
 #include "sliding_mode/impact_search.h"
 
 namespace gapscope::internal::sliding_mode {

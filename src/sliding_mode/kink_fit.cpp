@@ -6,7 +6,7 @@
 #include <cmath>
 #include <complex>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::sliding_mode {

@@ -1,6 +1,6 @@
 #include "gapscope/sliding_mode/stream_detector.h"
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "sliding_mode/frozen_search.h"
 #include "sliding_mode/verdict/verdict.h"
 

@@ -1,10 +1,10 @@
-#include "gapscope/telling/answer.h"
+#include "telling/answer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "gapscope/reference/fit.h"
 
 namespace gapscope {

@@ -3,7 +3,7 @@
 
 #include "diagnosis/rule.h"
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/telling/answer.h"
+#include "telling/answer.h"
 #include "telling/gap_of_effect.h"
 
 namespace gapscope {

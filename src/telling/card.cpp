@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/rule.h"
-#include "gapscope/base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/telling/answer.h"
+#include "telling/answer.h"
 #include "telling/card_lines.h"
 #include "telling/gap_of_effect.h"
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/rule.h"
+#include "diagnosis/simulator.h"
 #include "diagnosis/told_facts.h"
-#include "gapscope/base/text.h"
-#include "gapscope/diagnosis/simulator.h"
 #include "telling/card_lines.h"
 #include "telling/names.h"
 #include "torque_view/options.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shared_unit.h"
+#include "base/text.h"
 #include "diagnosis/rule.h"
-#include "gapscope/base/shared_unit.h"
-#include "gapscope/base/text.h"
 #include "telling/card_lines.h"
 #include "telling/names.h"
 

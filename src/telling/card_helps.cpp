@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/percents.h"
+#include "base/shared_unit.h"
+#include "base/text.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/rule.h"
-#include "gapscope/base/percents.h"
-#include "gapscope/base/shared_unit.h"
-#include "gapscope/base/text.h"
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "telling/card_lines.h"
 #include "telling/names.h"
 

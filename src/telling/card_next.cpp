@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/place.h"
 #include "diagnosis/rule.h"
-#include "gapscope/base/text.h"
-#include "gapscope/diagnosis/simulator.h"
-#include "gapscope/telling/answer.h"
+#include "diagnosis/simulator.h"
+#include "telling/answer.h"
 #include "telling/card_lines.h"
 #include "telling/gap_of_effect.h"
 #include "telling/names.h"

@@ -4,7 +4,7 @@
 
 #include "diagnosis/numbers.h"
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/telling/answer.h"
+#include "telling/answer.h"
 
 namespace gapscope::internal::telling {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/place.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::telling {
 namespace {

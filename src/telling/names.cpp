@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
+#include "base/shared_unit.h"
+#include "base/text.h"
 #include "diagnosis/numbers.h"
 #include "diagnosis/told_facts.h"
-#include "gapscope/base/shared_unit.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope::internal::telling {
 namespace {

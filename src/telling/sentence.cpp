@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/telling/card.h"
 #include "telling/card_lines.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shared_unit.h"
+#include "base/text.h"
 #include "diagnosis/rule.h"
-#include "gapscope/base/shared_unit.h"
-#include "gapscope/base/text.h"
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "gapscope/telling/card.h"
 #include "gapscope/telling/statement.h"
 

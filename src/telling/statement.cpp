@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "gapscope/base/percents.h"
-#include "gapscope/base/require.h"
-#include "gapscope/base/shared_unit.h"
-#include "gapscope/base/text.h"
+#include "base/percents.h"
+#include "base/require.h"
+#include "base/shared_unit.h"
+#include "base/text.h"
 
 namespace gapscope {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/parallel.h"
+#include "base/parallel.h"
 
 namespace gapscope::internal::torque_view {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::internal::torque_view {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <deque>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/parallel.h"
+#include "base/interrupt.h"
+#include "base/parallel.h"
 
 namespace gapscope::internal::torque_view {
 namespace {

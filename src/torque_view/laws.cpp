@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "torque_view/law_shapes.h"
 
 namespace gapscope::internal::torque_view {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "gapscope/base/parallel.h"
+#include "base/parallel.h"
 
 namespace gapscope::internal::torque_view {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/base/input_facts.h"
+#include "base/input_facts.h"
 
 namespace gapscope {
 namespace {

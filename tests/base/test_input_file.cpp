@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "base/input_file.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/input_file.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

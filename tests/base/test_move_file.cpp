@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gapscope/base/move_file.h"
+#include "base/move_file.h"
 #include "support/company.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"

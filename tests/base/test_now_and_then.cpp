@@ -3,7 +3,7 @@
 #include <atomic>
 #include <string>
 
-#include "gapscope/base/now_and_then.h"
+#include "base/now_and_then.h"
 
 namespace gapscope {
 namespace {

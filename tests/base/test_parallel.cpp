@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "gapscope/base/parallel.h"
+#include "base/parallel.h"
 
 namespace gapscope {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/base/percents.h"
+#include "base/percents.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/run_apart.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/run_apart.h"
 
 namespace gapscope {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/base/shown.h"
+#include "base/shown.h"
 
 namespace gapscope {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "gapscope/base/shell_word.h"
-#include "gapscope/base/text.h"
+#include "base/shell_word.h"
+#include "base/text.h"
 
 namespace gapscope {
 namespace {

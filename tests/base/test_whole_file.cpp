@@ -8,9 +8,9 @@
 #include <ostream>
 #include <thread>
 
+#include "base/move_file.h"
+#include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/move_file.h"
-#include "gapscope/base/shown.h"
 #include "gapscope/base/whole_file.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"

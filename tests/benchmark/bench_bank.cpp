@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmark/clock.h"
-#include "gapscope/sliding_mode/bound_bank.h"
+#include "sliding_mode/bound_bank.h"
 
 namespace gapscope::benchmarks {
 namespace {

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "gapscope/base/parallel.h"
-#include "gapscope/base/text.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "base/parallel.h"
+#include "base/text.h"
+#include "config/configuration.h"
 #include "implant/implant.h"
+#include "run/run_diagnosis.h"
 
 namespace {
 

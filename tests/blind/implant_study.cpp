@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "torque_view/stamped_file.h"
 
 namespace {

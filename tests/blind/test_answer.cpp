@@ -13,11 +13,11 @@
 #include <sstream>
 #include <thread>
 
+#include "base/interrupt.h"
 #include "blind/answer_journal.h"
+#include "blind/blind_check.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/results/blind_files.h"
+#include "results/blind_files.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 

@@ -7,13 +7,13 @@
 #include <fstream>
 #include <map>
 
+#include "blind/blind_check.h"
 #include "blind/scored_answer.h"
 #include "diagnosis/among.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/blind/blind_check.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/blind_files.h"
 #include "independent_plant/simulate.h"
+#include "results/blind_files.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 

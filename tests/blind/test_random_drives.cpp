@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "gapscope/blind/random_drives.h"
-#include "gapscope/config/configuration.h"
+#include "blind/random_drives.h"
+#include "config/configuration.h"
 #include "gapscope/recording/recording_file.h"
 #include "support/temporary_file.h"
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "blind/scored_answer.h"
-#include "gapscope/base/random.h"
-#include "gapscope/results/blind_score.h"
+#include "results/blind_score.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -7,13 +7,13 @@
 #include <set>
 #include <sstream>
 
+#include "blind/blind_check.h"
 #include "blind/case_plan.h"
+#include "config/configuration.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/config/configuration.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/sha256.h"
+#include "results/blind_files.h"
+#include "results/sha256.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 

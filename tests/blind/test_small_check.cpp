@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "gapscope/blind/blind_check.h"
-#include "gapscope/blind/score.h"
+#include "blind/blind_check.h"
+#include "blind/score.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

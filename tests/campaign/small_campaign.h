@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "gapscope/campaign/runner.h"
+#include "campaign/runner.h"
 #include "results/scratch_folder.h"
 #include "support/paper_model.h"
 

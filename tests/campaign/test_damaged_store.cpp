@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
+#include "base/interrupt.h"
 #include "campaign/change_store.h"
 #include "campaign/small_campaign.h"
+#include "campaign/summary.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/campaign/summary.h"
 #include "support/reading.h"
 
 namespace gapscope {

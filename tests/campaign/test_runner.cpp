@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
 #include "campaign/small_campaign.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "campaign/small_campaign.h"
+#include "campaign/store.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/campaign/store.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope {
 namespace {

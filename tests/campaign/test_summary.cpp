@@ -8,7 +8,7 @@
 #include "campaign/pair_scorer.h"
 #include "campaign/score.h"
 #include "campaign/small_campaign.h"
-#include "gapscope/campaign/summary.h"
+#include "campaign/summary.h"
 
 namespace gapscope {
 namespace {

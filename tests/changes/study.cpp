@@ -13,10 +13,10 @@
 #include <map>
 #include <string>
 
+#include "base/normal.h"
+#include "base/random.h"
+#include "changes/changes.h"
 #include "changes/series.h"
-#include "gapscope/base/normal.h"
-#include "gapscope/base/random.h"
-#include "gapscope/changes/changes.h"
 #include "gapscope/plant/effect.h"
 #include "reference/rigs.h"
 

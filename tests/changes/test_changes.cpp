@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/random.h"
+#include "changes/changes.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
-#include "gapscope/changes/changes.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "changes/series.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope {
 namespace {

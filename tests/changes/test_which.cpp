@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "changes/chance.h"
 #include "changes/which.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope {
 namespace {

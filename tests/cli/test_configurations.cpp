@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cli/executable.h"
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 #include "support/data.h"
 
 namespace gapscope {

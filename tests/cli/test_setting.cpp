@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "cli/executable.h"
-#include "gapscope/base/text.h"
 
 namespace gapscope {
 namespace {

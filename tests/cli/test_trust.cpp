@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "cli/executable.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/base/text.h"
 #include "support/paper_model.h"
 
 namespace gapscope {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/configuration.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

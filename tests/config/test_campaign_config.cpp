@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <set>
 
+#include "config/campaign_config.h"
 #include "config/campaign_point.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/campaign_config.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "config/blind_config.h"
+#include "config/configuration.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/blind_config.h"
-#include "gapscope/config/configuration.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -7,10 +7,10 @@
 #include <regex>
 #include <set>
 
+#include "config/configuration.h"
+#include "config/configuration_schema.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/config/configuration_schema.h"
 
 namespace gapscope {
 namespace {

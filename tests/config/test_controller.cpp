@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "support/reading.h"
 
 namespace gapscope {

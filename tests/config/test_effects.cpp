@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "config/configuration.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration.h"
 
 namespace gapscope {
 namespace {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/configuration.h"
 #include "config/texts.h"
-#include "gapscope/config/configuration.h"
 #include "support/reading.h"
 
 namespace gapscope {

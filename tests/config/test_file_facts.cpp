@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "support/reading.h"
 
 namespace gapscope {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "config/joint_numbers.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/joint_numbers.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "config/joint_numbers.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/joint_numbers.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

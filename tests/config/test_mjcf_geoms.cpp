@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "config/joint_numbers.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/joint_numbers.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -10,9 +10,9 @@
 #include <set>
 #include <string>
 
+#include "config/configuration.h"
+#include "config/configuration_schema.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/config/configuration_schema.h"
 #include "support/temporary_file.h"
 #include "support/yaml_as_json.h"
 

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/configuration.h"
+#include "config/setting.h"
 #include "config/texts.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/config/setting.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gapscope/base/text.h"
+#include "base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope::test {

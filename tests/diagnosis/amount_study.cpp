@@ -7,11 +7,11 @@
 #include <map>
 #include <sstream>
 
+#include "base/normal.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/study.h"
 #include "diagnosis/tell_budget.h"
 #include "diagnosis/tell_intervals.h"
-#include "gapscope/base/normal.h"
 #include "support/thread_time.h"
 
 namespace gapscope::test {

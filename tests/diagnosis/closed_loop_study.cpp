@@ -12,9 +12,9 @@
 #include <mutex>
 #include <string_view>
 
+#include "base/parallel.h"
 #include "diagnosis/added_in_words.h"
 #include "diagnosis/loop_cases.h"
-#include "gapscope/base/parallel.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording_file.h"
 #include "support/thread_time.h"

@@ -1,6 +1,6 @@
 #include "diagnosis/drawn_case.h"
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::test {
 

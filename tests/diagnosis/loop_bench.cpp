@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::test {
 namespace {

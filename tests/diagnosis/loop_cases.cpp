@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "diagnosis/loop_bench.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope::test {
 namespace {

@@ -8,11 +8,11 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/random.h"
 #include "diagnosis/drawn_case.h"
 #include "diagnosis/further.h"
 #include "diagnosis/look_alikes.h"
 #include "diagnosis/mismatch_size.h"
-#include "gapscope/base/random.h"
 #include "gapscope/telling/card.h"
 #include "support/thread_time.h"
 

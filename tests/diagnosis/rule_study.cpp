@@ -16,10 +16,10 @@
 #include <set>
 #include <type_traits>
 
+#include "base/parallel.h"
 #include "diagnosis/decision_cases.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/drawn_case.h"
-#include "gapscope/base/parallel.h"
 #include "support/thread_time.h"
 
 namespace {

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <set>
 
+#include "base/parallel.h"
 #include "blind/expected_place.h"
 #include "diagnosis/amount_study.h"
 #include "diagnosis/diagnose.h"
@@ -28,7 +29,6 @@
 #include "diagnosis/study_row.h"
 #include "diagnosis/unstarted_study.h"
 #include "diagnosis/where.h"
-#include "gapscope/base/parallel.h"
 #include "support/thread_time.h"
 
 namespace {

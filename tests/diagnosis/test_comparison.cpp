@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gapscope/diagnosis/comparison.h"
+#include "diagnosis/comparison.h"
 
 namespace gapscope {
 namespace {

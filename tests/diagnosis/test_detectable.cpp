@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "diagnosis/among.h"
 #include "diagnosis/one_inertia.h"
-#include "gapscope/base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
 
 namespace gapscope {

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "blind/blind_pair.h"
 #include "diagnosis/among.h"
 #include "diagnosis/one_inertia.h"
 #include "diagnosis/study.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/text.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/recording/recording.h"
-#include "gapscope/telling/answer.h"
 #include "independent_plant/severity.h"
+#include "telling/answer.h"
 
 namespace gapscope {
 namespace {

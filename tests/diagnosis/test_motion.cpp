@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/one_inertia.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -6,12 +6,12 @@
 #include <atomic>
 #include <memory>
 
+#include "base/interrupt.h"
 #include "blind/blind_pair.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/fitted_model.h"
 #include "diagnosis/step.h"
 #include "diagnosis/verdict.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/telling/card.h"
 

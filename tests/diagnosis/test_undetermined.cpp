@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "blind/blind_pair.h"
 #include "diagnosis/mismatch_size.h"
-#include "gapscope/base/random.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "blind/case_plan.h"
+#include "config/blind_config.h"
 #include "engine_plant/mujoco_plant.h"
-#include "gapscope/config/blind_config.h"
 #include "independent_plant/severity.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "gapscope/exports/export.h"
+#include "exports/export.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/stepper.h"
 #include "support/temporary_file.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 #include "independent_plant/random_drive.h"
 
 namespace gapscope::testing {

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <vector>
 
+#include "base/random.h"
+#include "exports/export.h"
 #include "exports/exported_drives.h"
-#include "gapscope/base/random.h"
-#include "gapscope/exports/export.h"
 
 namespace {
 

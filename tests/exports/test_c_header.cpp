@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "exports/export.h"
 #include "exports/exported_drives.h"
-#include "gapscope/exports/export.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/simulate.h"
 #include "support/temporary_file.h"

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gapscope/exports/export.h"
-#include "gapscope/results/carriage.h"
+#include "exports/export.h"
+#include "results/carriage.h"
 
 namespace gapscope {
 namespace {

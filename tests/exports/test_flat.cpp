@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sdf/sdf.hh>
 
+#include "exports/export.h"
 #include "exports/exported_drives.h"
-#include "gapscope/exports/export.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
+#include "config/begun_model.h"
+#include "diagnosis/begin.h"
+#include "exports/export.h"
 #include "exports/mujoco_engine.h"
-#include "gapscope/base/text.h"
-#include "gapscope/config/begun_model.h"
-#include "gapscope/diagnosis/begin.h"
-#include "gapscope/exports/export.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_diagnosis.h"
 #include "independent_plant/simulate.h"
 #include "results/scratch_folder.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {

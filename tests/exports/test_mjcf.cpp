@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "exports/export.h"
 #include "exports/exported_drives.h"
 #include "exports/mujoco_engine.h"
-#include "gapscope/exports/export.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/simulate.h"
 

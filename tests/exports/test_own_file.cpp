@@ -5,9 +5,9 @@
 #include <cmath>
 #include <regex>
 
+#include "exports/export.h"
 #include "exports/exported_drives.h"
 #include "exports/mujoco_engine.h"
-#include "gapscope/exports/export.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "config/starter.h"
+#include "exports/export.h"
 #include "exports/exported_drives.h"
-#include "gapscope/config/starter.h"
-#include "gapscope/exports/export.h"
 #include "gapscope/simulation/excitation.h"
 #include "gapscope/simulation/simulate.h"
 #include "support/temporary_file.h"

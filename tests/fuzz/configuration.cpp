@@ -1,9 +1,9 @@
-#include "gapscope/config/configuration.h"
+#include "config/configuration.h"
 
+#include "config/blind_config.h"
+#include "config/campaign_config.h"
 #include "fuzz/attempt.h"
 #include "fuzz/readers.h"
-#include "gapscope/config/blind_config.h"
-#include "gapscope/config/campaign_config.h"
 
 namespace gapscope::testing {
 namespace {

@@ -4,7 +4,7 @@
 #include "fuzz/readers.h"
 #include "fuzz/sound_recording.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/csv_stream.h"
+#include "recording/csv_stream.h"
 #include "recording/recorded_rows.h"
 
 namespace gapscope::testing {

@@ -1,4 +1,4 @@
-#include "gapscope/campaign/store.h"
+#include "campaign/store.h"
 
 #include <sqlite3.h>
 
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "campaign/small_campaign.h"
+#include "campaign/summary.h"
 #include "fuzz/attempt.h"
 #include "fuzz/readers.h"
-#include "gapscope/campaign/summary.h"
 #include "support/reading.h"
 
 namespace gapscope::testing {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "implant/smoothed_motion.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gapscope/inspection/first_row.h"
+#include "inspection/first_row.h"
 
 namespace gapscope {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "gapscope/inspection/reach.h"
+#include "inspection/reach.h"
 
 namespace gapscope {
 namespace {

@@ -7,9 +7,9 @@
 #include <functional>
 #include <numbers>
 
-#include "gapscope/base/text.h"
-#include "gapscope/inspection/column_guess.h"
-#include "gapscope/recording/column_name.h"
+#include "base/text.h"
+#include "inspection/column_guess.h"
+#include "recording/column_name.h"
 #include "recording/csv_rows.h"
 
 namespace gapscope {

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "commands/check.h"
+#include "commands/diagnose.h"
+#include "commands/estimate.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/commands/check.h"
-#include "gapscope/commands/diagnose.h"
-#include "gapscope/commands/estimate.h"
-#include "gapscope/results/drive_card.h"
+#include "results/drive_card.h"
 #include "results/scratch_folder.h"
 
 namespace gapscope::metamorphic {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "gapscope/inspection/inspection.h"
-#include "gapscope/telling/answer.h"
 #include "metamorphic/told_drive.h"
+#include "telling/answer.h"
 
 namespace gapscope::metamorphic {
 

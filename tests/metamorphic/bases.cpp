@@ -10,7 +10,7 @@
 
 #include "gapscope/plant/effect.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::metamorphic {
 namespace {

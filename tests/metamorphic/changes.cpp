@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 
 namespace gapscope::metamorphic {
 namespace {

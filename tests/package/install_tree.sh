@@ -26,7 +26,7 @@ mkdir "$work/everything"
 (cd "$work/tree/include" && find gapscope -name '*.h' | sort | sed 's/.*/#include <&>/') >"$work/everything/main.cpp"
 cat >>"$work/everything/main.cpp" <<'END'
 int main(int argc, char** argv) {
-  if (argc > 1) gapscope::write_blind_report(argv[1]);  // the uppermost library, and through it all others
+  if (argc > 1) gapscope::export_drive(argv[1], gapscope::ExportFormat::kC);  // the uppermost library with a header
 }
 END
 cat >"$work/everything/CMakeLists.txt" <<'END'

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/plant/acceleration_bound.h"
+#include "plant/acceleration_bound.h"
 
 namespace gapscope {
 namespace {

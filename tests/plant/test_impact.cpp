@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/base/random.h"
-#include "gapscope/plant/impact.h"
+#include "base/random.h"
+#include "plant/impact.h"
 
 namespace gapscope {
 namespace {

@@ -1,6 +1,6 @@
 // A recording of several axes: one is named, all are found.
-#include "gapscope/recording/axes.h"
 #include "recording/array_fixture.h"
+#include "recording/axes.h"
 
 namespace gapscope {
 namespace {

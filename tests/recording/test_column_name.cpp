@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "gapscope/recording/column_name.h"
+#include "recording/column_name.h"
 
 namespace gapscope {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "gapscope/recording/axes.h"
 #include "recording/array_fixture.h"
+#include "recording/axes.h"
 #include "support/mat_file.h"
 
 namespace gapscope {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "base/random.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
 #include "gapscope/recording/recording_file.h"
 #include "recording/csv_rows.h"
 #include "support/temporary_file.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/recording/csv_stream.h"
+#include "recording/csv_stream.h"
 #include "support/temporary_file.h"
 
 namespace gapscope {

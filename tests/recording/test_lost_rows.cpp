@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "gapscope/recording/lost_rows.h"
 #include "recording/array_fixture.h"
+#include "recording/lost_rows.h"
 
 namespace gapscope {
 namespace {

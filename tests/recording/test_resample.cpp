@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
 #include "gapscope/recording/recording_file.h"
 #include "recording/resample.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/recording/recording_file.h"
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "independent_plant/closed_loop.h"
 #include "reference/rigs.h"

@@ -11,9 +11,9 @@
 #include <map>
 #include <string>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
+#include "diagnosis/second_encoder.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/diagnosis/second_encoder.h"
 #include "reference/rigs.h"
 
 namespace gapscope {

@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/recording/lost_rows.h"
+#include "recording/lost_rows.h"
 #include "reference/rigs.h"
 #include "support/uneven.h"
 

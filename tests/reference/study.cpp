@@ -25,7 +25,7 @@
 #include <string>
 #include <thread>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "reference/rigs.h"
 

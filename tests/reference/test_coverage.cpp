@@ -1,7 +1,7 @@
 // Do 95 % intervals hold the truth as often as they say? On recordings of an independent plant.
 #include <gtest/gtest.h>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "reference/rigs.h"
 
 namespace gapscope {

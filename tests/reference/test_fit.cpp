@@ -5,8 +5,8 @@
 #include <cmath>
 #include <thread>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "reference/rigs.h"
 
 namespace gapscope {

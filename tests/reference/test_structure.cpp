@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "gapscope/plant/effect_hooks.h"
-#include "gapscope/plant/rival_laws.h"
 #include "independent_plant/family.h"
+#include "plant/rival_laws.h"
 #include "reference/rigs.h"
 #include "reference/structure.h"
 #include "reference/trust.h"

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <string>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/recording/recording_file.h"
 #include "independent_plant/severity.h"
 #include "reference/rigs.h"

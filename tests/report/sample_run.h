@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 
 namespace gapscope {
 

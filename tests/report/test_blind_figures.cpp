@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "gapscope/report/blind_report.h"
 #include "report/blind_figures.h"
+#include "report/blind_report.h"
 #include "report/clear_texts.h"
 #include "report/draw_figure.h"
 #include "report/implant_report.h"

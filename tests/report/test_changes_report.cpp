@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gapscope/report/changes_report.h"
 #include "report/changes_figure.h"
+#include "report/changes_report.h"
 #include "report/clear_texts.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"

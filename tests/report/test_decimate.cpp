@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "report/decimate.h"
 #include "report/report_view.h"
 #include "report/signals.h"

@@ -7,14 +7,14 @@
 #include <iterator>
 #include <opencv2/core.hpp>
 
-#include "gapscope/report/report.h"
-#include "gapscope/results/diagnosis_result.h"
 #include "report/clear_texts.h"
 #include "report/detectable.h"
 #include "report/diagnosis_figures.h"
 #include "report/draw_figure.h"
 #include "report/error_budget.h"
 #include "report/last_resort.h"
+#include "report/report.h"
+#include "results/diagnosis_result.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "report/error_scale.h"
 #include "report/fig6_one_period.h"
 #include "report/figures.h"

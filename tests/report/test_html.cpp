@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "gapscope/report/report.h"
 #include "report/html_page.h"
 #include "report/plain_markdown.h"
+#include "report/report.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"

@@ -6,13 +6,13 @@
 #include <opencv2/core.hpp>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/report/report.h"
-#include "gapscope/telling/answer.h"
 #include "report/markdown.h"
+#include "report/report.h"
 #include "report/sample_run.h"
 #include "results/scratch_folder.h"
 #include "support/png_file.h"
 #include "support/reading.h"
+#include "telling/answer.h"
 
 namespace gapscope {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 
 /// A result that has something everywhere.
 namespace gapscope::test {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 #include "support/reading.h"
 
 namespace gapscope::test {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <map>
 
-#include "gapscope/results/blind_files.h"
-#include "gapscope/results/blind_score.h"
-#include "gapscope/results/campaign_summary.h"
-#include "gapscope/results/diagnosis_result.h"
-#include "gapscope/results/drive_changes.h"
-#include "gapscope/results/run_result.h"
+#include "results/blind_files.h"
+#include "results/blind_score.h"
+#include "results/campaign_summary.h"
+#include "results/diagnosis_result.h"
+#include "results/drive_changes.h"
+#include "results/run_result.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/results/campaign_summary.h"
+#include "results/campaign_summary.h"
 #include "results/scratch_folder.h"
 
 namespace gapscope {

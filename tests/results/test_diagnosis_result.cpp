@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/results/diagnosis_result.h"
+#include "results/diagnosis_result.h"
 #include "results/full_result.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gapscope/results/sha256.h"
 #include "results/file_list.h"
 #include "results/folder_content.h"
 #include "results/replace_files.h"
 #include "results/scratch_folder.h"
+#include "results/sha256.h"
 #include "support/company.h"
 #include "support/reading.h"
 

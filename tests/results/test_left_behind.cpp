@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 #include "results/report_folder_use.h"
 #include "results/scratch_folder.h"
 #include "support/company.h"

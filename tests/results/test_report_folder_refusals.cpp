@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/results/report_folder.h"
+#include "results/report_folder.h"
 #include "results/report_folder_use.h"
 #include "results/scratch_folder.h"
 

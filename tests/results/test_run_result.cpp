@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gapscope/base/errors.h"
-#include "gapscope/results/run_result.h"
 #include "results/full_result.h"
+#include "results/run_result.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "gapscope/results/run_result.h"
 #include "results/full_result.h"
+#include "results/run_result.h"
 #include "results/scratch_folder.h"
 #include "support/reading.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "gapscope/diagnosis/comparison.h"
-#include "gapscope/plant/acceleration_bound.h"
-#include "gapscope/run/run_pipeline.h"
+#include "diagnosis/comparison.h"
 #include "gapscope/sliding_mode/detector.h"
+#include "plant/acceleration_bound.h"
+#include "run/run_pipeline.h"
 
 namespace gapscope::test {
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/blind/random_drives.h"
+#include "blind/random_drives.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/drive_card.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "results/drive_card.h"
 #include "run/changed_rows.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {

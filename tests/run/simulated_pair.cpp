@@ -6,11 +6,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/random.h"
+#include "config/configuration.h"
+#include "exports/export.h"
 #include "exports/mujoco_engine.h"
-#include "gapscope/base/random.h"
 #include "gapscope/base/statistics.h"
-#include "gapscope/config/configuration.h"
-#include "gapscope/exports/export.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope::test {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "gapscope/base/text.h"
-#include "gapscope/diagnosis/simulator.h"
+#include "base/text.h"
+#include "diagnosis/simulator.h"
 #include "gapscope/telling/card.h"
 #include "run/simulated_pair.h"
 

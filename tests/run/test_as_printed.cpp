@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_pipeline.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "results/scratch_folder.h"
 #include "run/against_the_paper.h"
+#include "run/run_pipeline.h"
 #include "support/reading.h"
 
 namespace gapscope {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gapscope/inspection/first_row.h"
+#include "inspection/first_row.h"
 #include "run/doubtful_delay.h"
 
 namespace gapscope {

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/results/run_result.h"
-#include "gapscope/run/run_pipeline.h"
+#include "results/run_result.h"
 #include "results/scratch_folder.h"
+#include "run/run_pipeline.h"
 #include "support/paper_model.h"
 
 namespace gapscope {

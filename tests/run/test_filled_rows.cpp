@@ -7,9 +7,9 @@
 
 #include "diagnosis/among.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
 #include "run/changed_rows.h"
+#include "run/run_diagnosis.h"
 #include "support/paper_model.h"
 
 namespace gapscope {

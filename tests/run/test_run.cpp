@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/random.h"
+#include "base/text.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/text.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
+#include "run/run_diagnosis.h"
 #include "support/paper_model.h"
 #include "support/reading.h"
 

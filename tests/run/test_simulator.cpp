@@ -8,12 +8,12 @@
 #include <functional>
 #include <utility>
 
-#include "gapscope/base/interrupt.h"
-#include "gapscope/base/random.h"
-#include "gapscope/base/text.h"
+#include "base/interrupt.h"
+#include "base/random.h"
+#include "base/text.h"
 #include "gapscope/recording/recording_file.h"
-#include "gapscope/run/run_diagnosis.h"
 #include "results/scratch_folder.h"
+#include "run/run_diagnosis.h"
 #include "run/run_simulator.h"
 #include "support/paper_model.h"
 #include "support/reading.h"

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "gapscope/base/text.h"
-#include "gapscope/run/run_diagnosis.h"
+#include "base/text.h"
 #include "independent_plant/closed_loop.h"
 #include "results/scratch_folder.h"
+#include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {

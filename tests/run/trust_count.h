@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gapscope/base/statistics.h"
-#include "gapscope/results/run_result.h"
+#include "results/run_result.h"
 
 namespace gapscope::test {
 

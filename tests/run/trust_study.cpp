@@ -15,9 +15,9 @@
 #include <optional>
 #include <thread>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
-#include "gapscope/run/run_pipeline.h"
+#include "run/run_pipeline.h"
 #include "run/trust_case.h"
 #include "run/trust_count.h"
 

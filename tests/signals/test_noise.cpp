@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "signals/noise.h"
 
 namespace gapscope::internal::signals {

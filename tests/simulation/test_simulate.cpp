@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/interrupt.h"
 #include "gapscope/base/errors.h"
-#include "gapscope/base/interrupt.h"
 #include "gapscope/simulation/simulate.h"
 #include "simulation/drives.h"
 

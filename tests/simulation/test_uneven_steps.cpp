@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/plant/effect_hooks.h"
 #include "gapscope/simulation/stepper.h"
 #include "simulation/drives.h"

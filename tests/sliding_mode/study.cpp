@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/sliding_mode/detector.h"
 #include "independent_plant/random_drive.h"

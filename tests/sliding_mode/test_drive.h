@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/recording/recording.h"
 
 namespace gapscope {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "sliding_mode/kink_fit.h"
 
 namespace gapscope::internal::sliding_mode {

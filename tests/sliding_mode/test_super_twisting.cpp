@@ -6,9 +6,9 @@
 #include <new>
 #include <vector>
 
-#include "gapscope/base/random.h"
-#include "gapscope/sliding_mode/bound_bank.h"
+#include "base/random.h"
 #include "gapscope/sliding_mode/super_twisting.h"
+#include "sliding_mode/bound_bank.h"
 
 namespace {
 std::atomic<long> allocations{0};

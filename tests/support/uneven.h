@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope::test {

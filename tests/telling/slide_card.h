@@ -2,8 +2,8 @@
 #pragma once
 
 #include "gapscope/diagnosis/diagnosis.h"
-#include "gapscope/telling/answer.h"
 #include "gapscope/telling/card.h"
+#include "telling/answer.h"
 
 namespace gapscope::testing {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "gapscope/diagnosis/comparison.h"
-#include "gapscope/telling/answer.h"
+#include "diagnosis/comparison.h"
 #include "support/told.h"
+#include "telling/answer.h"
 
 namespace gapscope {
 namespace {

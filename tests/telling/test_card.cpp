@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "support/told.h"
 #include "telling/slide_card.h"
 

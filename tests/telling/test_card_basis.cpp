@@ -1,9 +1,9 @@
 // What the figures of a card are of: which evidence has decided, in which band, of which model.
 #include <gmock/gmock.h>
 
-#include "gapscope/base/decimals.h"
-#include "gapscope/base/percents.h"
-#include "gapscope/base/shared_unit.h"
+#include "base/decimals.h"
+#include "base/percents.h"
+#include "base/shared_unit.h"
 #include "support/told.h"
 #include "telling/slide_card.h"
 

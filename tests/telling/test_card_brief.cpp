@@ -1,7 +1,7 @@
 // The six lines as a report begins with them: an answer each, without the numbers and reasons behind it.
 #include <gmock/gmock.h>
 
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "support/told.h"
 #include "telling/slide_card.h"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "diagnosis/friction_and_delay.h"
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "support/told.h"
 
 namespace gapscope {

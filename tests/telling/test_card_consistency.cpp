@@ -3,8 +3,8 @@
 
 #include "diagnosis/friction_and_delay.h"
 #include "diagnosis/verdict.h"
-#include "gapscope/telling/answer.h"
 #include "support/told.h"
+#include "telling/answer.h"
 #include "telling/slide_card.h"
 
 namespace gapscope {

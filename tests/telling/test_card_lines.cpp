@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "diagnosis/friction_and_delay.h"
-#include "gapscope/telling/answer.h"
 #include "support/told.h"
+#include "telling/answer.h"
 
 namespace gapscope {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "gapscope/diagnosis/simulator.h"
+#include "diagnosis/simulator.h"
 #include "gapscope/telling/card.h"
 #include "support/told.h"
 

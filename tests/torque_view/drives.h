@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 #include "torque_view/regressors.h"
 

@@ -12,8 +12,8 @@
 
 namespace gapscope {
 
-/// Of the build, as stored results carry it: "0.2.0" of a release or of sources without a repository, else with
-/// the commits since then, the commit and whether files were changed: "0.2.0-17-g1a2b3c4d-dirty".
+/// Of the build, as stored results carry it: "0.2.0" of a release or of sources without a repository, else
+/// with the commits since then, the commit and whether files were changed: "0.2.0-17-g1a2b3c4d-dirty".
 const char* version();
 
 }  // namespace gapscope

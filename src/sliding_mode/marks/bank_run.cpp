@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/random.h"
+#include "base/random.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::sliding_mode {

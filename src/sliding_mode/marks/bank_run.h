@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gapscope/recording/recording.h"
-#include "gapscope/sliding_mode/bound_bank.h"
 #include "signals/signal_facts.h"
+#include "sliding_mode/bound_bank.h"
 
 namespace gapscope::internal::sliding_mode {
 

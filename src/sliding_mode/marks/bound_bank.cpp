@@ -1,4 +1,4 @@
-#include "gapscope/sliding_mode/bound_bank.h"
+#include "sliding_mode/bound_bank.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/require.h"
+#include "base/require.h"
 #include "sliding_mode/kink_fit.h"
 
 namespace gapscope::internal::sliding_mode {

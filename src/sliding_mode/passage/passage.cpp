@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/passage/coasting.h"
 #include "sliding_mode/passage/flight.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "sliding_mode/published/bend.h"
 #include "sliding_mode/words.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "sliding_mode/verdict/pool.h"
 #include "sliding_mode/words.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/base/statistics.h"
 
 namespace gapscope::internal::sliding_mode {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
 #include "sliding_mode/verdict/evidence.h"
 #include "sliding_mode/verdict/loop_positions.h"

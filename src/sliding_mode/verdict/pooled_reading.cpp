@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gapscope/base/normal.h"
+#include "base/normal.h"
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
 #include "sliding_mode/passage/passage.h"
