@@ -121,6 +121,14 @@ Told fitted_loop(const Diagnosis& d) {
             word("worst", worst->file)}}};
 }
 
+/// Of the recommended model, in the recording held out that it misses most [rad].
+double worst_rms(const Diagnosis& d) {
+  double worst = kNaN;
+  for (const HeldOutRun& run : d.held_out_runs)
+    if (!run.closed) worst = std::fmax(worst, run.rmse);
+  return worst;
+}
+
 /// Under its controller a drive is judged by that.
 Told free_run(const Diagnosis& d, Coordinates coordinates) {
   if (!d.whole_run || d.closed_loop) return {};
@@ -130,7 +138,7 @@ Told free_run(const Diagnosis& d, Coordinates coordinates) {
                 : !stays_after ? "error.free_run.then_diverges"
                                : "error.free_run",
                 {number("before", w.before, "rad"), number("after", d.added.empty() ? kNaN : w.after, "rad"),
-                 travel_word(w.travel, coordinates)}}};
+                 travel_word(w.travel, coordinates), number("rms", worst_rms(d), "rad")}}};
   const bool grows =
       w.after > kRule.floor_ratio * w.before && d.mismatch.after < d.mismatch.before && !drifts_farther(d);
   if (!d.added.empty() && stays && stays_after && grows) told.push_back({"error.free_run.grows"});

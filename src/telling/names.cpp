@@ -185,7 +185,9 @@ std::string readable_law(const std::string& law) {
 ToldName name_of(const AddedEffect& added, const Diagnosis& d, Coordinates coordinates) {
   for (const Turned& t : kTurned)
     for (const NamedValue& p : added.parameters)
-      if (added.effect == t.effect && p.key == t.parameter && p.value < 0.0) return t.told;
+      if (added.effect == t.effect && p.key == t.parameter &&
+          (std::isnan(p.ci95.high) ? p.value : p.ci95.high) < 0.0)
+        return t.told;
   const std::string period = is_added_again(added, d) ? period_of(added, coordinates) : "";
   return {readable(added.effect) + (period.empty() ? "" : " " + period)};
 }

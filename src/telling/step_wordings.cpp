@@ -50,7 +50,7 @@ constexpr Wording kSteps[] = {
      "Simulate with `DIR/fitted.yaml`: it predicts best, whether or not each addition is a "
      "real cause."},
     {"next.simulate.drifts",
-     "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it ends up {after} off, "
+     "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it is up to {after} off, "
      "without "
      "what was added {before}."},
     {"next.simulate.runs_away",

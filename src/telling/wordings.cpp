@@ -144,13 +144,13 @@ constexpr Wording kWordings[] = {
      "with "
      "the additions {after}][ ({measure})]."},
     {"error.free_run",
-     "Simulated from the first sample to the last it ends up {before} off, of {travel} of travel[; with what "
-     "helps, {after}]."},
+     "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel[; with what "
+     "helps, up to {after}][ ({rms} rms)]."},
     {"error.free_run.diverges",
      "Simulated from the first sample to the last it runs away[; with what helps it "
-     "ends up {after} off, of {travel} of travel]."},
+     "is up to {after} off, of {travel} of travel][ ({rms} rms)]."},
     {"error.free_run.then_diverges",
-     "Simulated from the first sample to the last it ends up {before} off, of "
+     "Simulated from the first sample to the last it is up to {before} off, of "
      "{travel} of travel; with what helps it runs away."},
     {"error.free_run.grows", "", "Over so long a run the smallest errors grow."},
     {"error.closed_loop",
