@@ -100,12 +100,12 @@ void dry_run(const CampaignConfig& c, const CampaignShard& shard, int threads) {
 }
 
 /// The report of a campaign of which every run is there, else the list of what is there.
-void report_whole(ReportFolder& report, const std::string& folder, const CampaignSummary& summary,
-                  const FigureFormats& figures) {
+void report_whole(ReportFolder& report, const std::string& folder, const CampaignTimes& times,
+                  const CampaignSummary& summary, const FigureFormats& figures) {
   const bool whole = summary.done >= summary.runs;
   if (whole) {
     write_campaign_summary(report.path(), summary);
-    write_campaign_times(report.path(), times_of(CampaignStore(folder)));
+    write_campaign_times(report.path(), times);
     write_campaign_report(report.path(), figures);
   }
   stop_point();
@@ -135,7 +135,7 @@ void run(const CampaignArguments& a) {
   ReportFolder(folder, FolderKind::kCampaign, inputs).leave();  // the store keeps others out from here on
   const auto summary = run_and_summarise(c, shard, folder, a);
   ReportFolder report(folder, FolderKind::kCampaign, inputs);
-  if (shard.of == 1) return report_whole(report, folder, summary, a.figures);
+  if (shard.of == 1) return report_whole(report, folder, times_of(CampaignStore(folder)), summary, a.figures);
   report.commit();
 }
 
@@ -193,7 +193,7 @@ void add_merge(CommandLine& campaign) {
     const CampaignSummary summary = summarise(CampaignStore(report.path()));
     say("store", a->target + "/results.sqlite");
     say("runs", fmt::format("{} of {}", merged, summary.runs));
-    report_whole(report, a->target, summary, {});
+    report_whole(report, a->target, times_of(CampaignStore(report.path())), summary, {});
   });
 }
 

@@ -86,18 +86,16 @@ Panel share_over(const CampaignSummary& s, const std::string& name, const std::s
 
 }  // namespace
 
-FigureData campaign_cost(const CampaignSummary& s, const CampaignTimes& times) {
+FigureData campaign_cost(const CampaignSummary& s) {
   FigureData figure;
   figure.file = "cost.png";
   figure.title = literal(s.name) + ": what it costs";
-  Cost passes, seconds;
-  bool judged = false, timed = false;
+  Cost passes;
+  bool judged = false;
   for (const CampaignEstimator& e : estimators_of(s)) {
     const EstimatorScore& score = s.total.*(e.score);
     judged = judged || score.judged > 0;
     passes.push_back(score.passes);
-    seconds.push_back(1e3 * times.*(e.time));
-    timed = timed || seconds.back() > 0.0;
   }
   if (!judged)
     return missing_figure(figure.file, figure.title, "no run has a true gap and an estimate of it");
@@ -109,15 +107,11 @@ FigureData campaign_cost(const CampaignSummary& s, const CampaignTimes& times) {
                   s.total.runs, s.samples, s.recorded)};
   figure.panels = {error_over(s, "work", "passes over the recording", passes),
                    share_over(s, "work", "passes over the recording", passes)};
-  if (timed) {
-    figure.panels.push_back(error_over(s, "time of one run", "ms", seconds));
-    figure.panels.push_back(share_over(s, "time of one run", "ms", seconds));
-  }
   std::vector<std::string> told;
   for (const CampaignEstimator& e : estimators_of(s))
     told.push_back(fmt::format("{} {:.0f}", e.name, (s.total.*(e.score)).passes));
   figure.reading =
-      fmt::format("Passes over the recording, median: {}. Times are those of this machine, in timing.json.",
+      fmt::format("Passes over the recording, median: {}. The times of this machine are in timing.json.",
                   fmt::join(told, ", "));
   return figure;
 }

@@ -22,11 +22,11 @@ Axis campaign_axis(const SummaryAxis& axis, const Interval& room);
 /// "A none, B contact_adhesion": what the letters stand for; empty without.
 std::string campaign_key(const SummaryAxis& axis);
 
-/// What each estimator does for how much work, and for how much time where that is known.
-FigureData campaign_cost(const CampaignSummary& summary, const CampaignTimes& times);
+/// What each estimator does for how much work; times are no figure, as they are others at each run.
+FigureData campaign_cost(const CampaignSummary& summary);
 
 /// The cost, the maps, then the lines.
-std::vector<FigureData> campaign_figures(const CampaignSummary& summary, const CampaignTimes& times = {});
+std::vector<FigureData> campaign_figures(const CampaignSummary& summary);
 
 /// Which estimator to take when, and what that costs.
 std::vector<std::string> campaign_verdict(const CampaignSummary& summary);
@@ -39,7 +39,6 @@ struct CampaignEstimator {
   const char* name;
   const char* in_a_sentence;
   EstimatorScore SummaryCell::*score;
-  double CampaignTimes::*time;
   LineStyle style;
   Marker marker;
 };

@@ -132,14 +132,14 @@ std::vector<std::string> lines_of(const std::vector<SummaryCount>& counts) {
 std::vector<CampaignEstimator> estimators_of(const CampaignSummary& s) {
   std::vector<CampaignEstimator> all;
   if (s.literal)
-    all.push_back({"literal", "literal", "method as printed", &SummaryCell::literal,
-                   &CampaignTimes::literal_s, literal_style(), Marker::kCircle});
+    all.push_back(
+        {"literal", "literal", "method as printed", &SummaryCell::literal, literal_style(), Marker::kCircle});
   if (s.model_free)
     all.push_back({"model_free", "model-free", "model-free detector", &SummaryCell::model_free,
-                   &CampaignTimes::model_free_s, model_free_style(), Marker::kDisc});
+                   model_free_style(), Marker::kDisc});
   if (s.reference)
-    all.push_back({"reference", "reference", "fitted model", &SummaryCell::reference,
-                   &CampaignTimes::reference_s, reference_style(), Marker::kTriangleUp});
+    all.push_back({"reference", "reference", "fitted model", &SummaryCell::reference, reference_style(),
+                   Marker::kTriangleUp});
   return all;
 }
 
@@ -154,8 +154,8 @@ std::string percent(double share) {
   return size >= 1e-3 ? fmt::format("{:.2g} %", value) : fmt::format("{}0.001 %", value < 0.0 ? "> −" : "< ");
 }
 
-std::vector<FigureData> campaign_figures(const CampaignSummary& s, const CampaignTimes& times) {
-  std::vector<FigureData> figures = {campaign_cost(s, times)};
+std::vector<FigureData> campaign_figures(const CampaignSummary& s) {
+  std::vector<FigureData> figures = {campaign_cost(s)};
   for (const SummaryTable& table : s.pairs) figures.push_back(campaign_map(s, table));
   for (const SummaryTable& table : s.lines) figures.push_back(campaign_line(s, table));
   return figures;
@@ -192,8 +192,7 @@ std::vector<std::string> which_estimator(const CampaignSummary& summary) {
 
 void write_campaign_report(const std::string& folder, const FigureFormats& formats) {
   const CampaignSummary summary = read_campaign_summary(folder);
-  const std::vector<internal::report::FigureData> figures =
-      internal::report::campaign_figures(summary, read_campaign_times(folder));
+  const std::vector<internal::report::FigureData> figures = internal::report::campaign_figures(summary);
   internal::report::write_report_files(folder, figures, internal::report::campaign_text(summary, figures),
                                        formats, {summary.name});
 }

@@ -201,16 +201,6 @@ void write_campaign_times(const std::string& folder, const CampaignTimes& times)
   internal::results::save_json(times_in(folder), writer.json);
 }
 
-CampaignTimes read_campaign_times(const std::string& folder) {
-  const std::string path = times_in(folder);
-  CampaignTimes times;
-  if (!std::filesystem::exists(path)) return times;
-  const internal::results::Json json = internal::results::load_json(path);
-  internal::results::JsonReader reader(json, path, "");
-  internal::results::fields(reader, times);
-  return times;
-}
-
 bool has_campaign_summary(const std::string& folder) { return std::filesystem::exists(summary_in(folder)); }
 
 }  // namespace gapscope

@@ -138,7 +138,6 @@ CampaignSummary read_campaign_summary(const std::string& folder);
 
 /// timing.json beside it.
 void write_campaign_times(const std::string& folder, const CampaignTimes& times);
-CampaignTimes read_campaign_times(const std::string& folder);  ///< NaN where there are none
 
 bool has_campaign_summary(const std::string& folder);
 

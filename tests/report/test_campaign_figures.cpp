@@ -75,7 +75,7 @@ TEST(CampaignFigures, HaveNoTextsThatMeetOrAreCut) {
     CampaignSummary s = sample_campaign();
     s.literal = estimators > 2;
     s.model_free = estimators > 1;
-    for (const FigureData& figure : campaign_figures(s, {1e-3, 0.3, 2.0})) {
+    for (const FigureData& figure : campaign_figures(s)) {
       const Drawing drawing = draw_with_notes(figure);
       expect_clear_texts(figure, drawing);
     }
