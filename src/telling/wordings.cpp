@@ -144,7 +144,8 @@ constexpr Wording kWordings[] = {
      "with "
      "the additions {after}][ ({measure})]."},
     {"error.free_run",
-     "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel[; with what "
+     "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel[; with "
+     "what "
      "helps, up to {after}][ ({rms} rms)]."},
     {"error.free_run.diverges",
      "Simulated from the first sample to the last it runs away[; with what helps it "
