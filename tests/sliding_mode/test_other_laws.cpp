@@ -47,6 +47,12 @@ TEST(OtherLaws, ARestThatFrictionBendsIsNoneAtTheLoad) {
   EXPECT_TRUE(at_its_load.well() && at_its_load.holds()) << at_its_load.estimate.brief_report();
 }
 
+/// A mark where x1 stands: as many samples as there are share a rounding, and the search for its onset had no
+/// end.
+TEST(OtherLaws, AMarkWhereTheMotorStandsEndsInARefusal) {
+  EXPECT_NE(read("high_friction", 100014).estimate.verdict, GapVerdict::kBacklash);
+}
+
 TEST(OtherLaws, WhatIsRefusedIsBoundWhereMostPassagesEndInAnImpact) {
   for (const std::uint64_t seed : {2, 6, 9}) {
     const Read drive = read("pd_joint", seed);

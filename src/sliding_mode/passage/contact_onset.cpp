@@ -94,7 +94,7 @@ Onset OnsetScan::best(double from, double to, double step, double alike) const {
   const double limit = least.sse + alike;
   const auto edge = [&](double way) {
     double in = least.time, out = in + way;
-    while (out >= from && out <= to && trial(out).sse <= limit) in = out, out += way;
+    for (; out >= from && out <= to && trial(out).sse <= limit; way *= 2.0) in = out, out += way;
     out = std::clamp(out, from, to);
     while (std::abs(out - in) > kFinestEdge) {
       const double middle = 0.5 * (in + out);

@@ -21,7 +21,8 @@ constexpr double kBehind = 2.0;
 constexpr double kFinestOnset = 0.25;  ///< samples, between the instants that are tried for the interval
 constexpr double kCoarse = 0.5;        ///< … at least for the best one,
 constexpr double kTrials = 40.0;       ///< of which there are so many
-constexpr double kBeforeOnset = 3.0;   ///< samples before it that the law has to hold in as well
+constexpr std::size_t kMostOnsetRows = 4000;  ///< that an onset is sought in; of longer stretches every n-th
+constexpr double kBeforeOnset = 3.0;          ///< samples before it that the law has to hold in as well
 constexpr std::size_t kFewestOfLaw = 20;
 constexpr double kAtOnce = 0.5;  ///< of what the contact takes of x1, from which on it is called rigid
 
@@ -65,32 +66,39 @@ OnsetFit find_onset(const PassageContext& context, const Mark& mark, const Fligh
   const std::size_t last =
       std::min({mark.start + mark.samples(kBehind), law.window().last, context.trace.size() - 1});
   if (last < first + kFewestOfLaw || mark.start < first + 4) return fit;
-  const Eigen::VectorXd y = law.columns().positions(first, last);
-  const Eigen::MatrixXd columns = law.columns().rows(first, last);
-  const OnsetScan scan(y, first, law.direction(), columns, OnsetScan::Start::kImpact);
-  const OnsetScan pulled(y, first, -law.direction(), columns, OnsetScan::Start::kImpact);
-  const double end = static_cast<double>(last) - 1.0;
+  const std::size_t stride = (last - first) / kMostOnsetRows + 1;
+  const Eigen::VectorXd y = law.columns().positions(first, last, stride);
+  const Eigen::MatrixXd columns = law.columns().rows(first, last, stride);
+  if (columns.rows() <= columns.cols()) return fit;
+  const OnsetScan scan(y, 0, law.direction(), columns, OnsetScan::Start::kImpact);
+  const OnsetScan pulled(y, 0, -law.direction(), columns, OnsetScan::Start::kImpact);
+  const auto width = static_cast<double>(stride);
+  const auto row = [&](double time) { return (time - static_cast<double>(first)) / width; };
+  const auto time = [&](double rows) { return static_cast<double>(first) + width * rows; };
+  const double end = static_cast<double>(y.size()) - 2.0;
   const double sigma2 = context.facts.noise * context.facts.noise, alike = kAlike * sigma2;
   const std::size_t most = (mark.start - first) / 2;
   std::size_t back = std::min(3 * mark.latency + mark.samples(5.0), most);
   double begin = 0.0, step = 0.0;
   for (;; back = std::min(2 * back, most)) {
-    begin = static_cast<double>(mark.start - back), step = std::max(kCoarse, (end - begin) / kTrials);
+    begin = row(static_cast<double>(mark.start - back)), step = std::max(kCoarse, (end - begin) / kTrials);
     fit.best = scan.best(begin, end, step, alike);
     if (fit.best.time > begin + step || back == most) break;  // a least error at the rim is none
   }
   fit.found = true;
   fit.along = pulled.best(begin, end, step, alike).sse < fit.best.sse;
-  Eigen::VectorXd known(static_cast<Eigen::Index>(y.size()));
+  fit.best.time = time(fit.best.time), fit.best.last = time(fit.best.last);
+  Eigen::VectorXd known(static_cast<Eigen::Index>(last - first + 1));
   for (Eigen::Index i = 0; i < known.size(); ++i)
     known(i) = -law.direction() * fit.best(static_cast<double>(first) + static_cast<double>(i));
   fit.law = law.fit_without(first, known);
   const auto from =
       static_cast<std::size_t>(std::max(fit.best.time - kBeforeOnset, static_cast<double>(first)));
   const double left = left_over(context.trace, law, fit, from, last);
-  const double limit = fit.best.sse + kOnsetAsGood * std::max(sigma2, left) * mark.sharing;
+  const double limit =
+      fit.best.sse + kOnsetAsGood * std::max(sigma2, left) * std::max(1.0, mark.sharing / width);
   const Interval open = scan.within(begin, end, std::min(step, kFinestOnset), limit);
-  fit.low = std::min(open.low, fit.best.time), fit.high = std::max(open.high, fit.best.time);
+  fit.low = std::min(time(open.low), fit.best.time), fit.high = std::max(time(open.high), fit.best.time);
   return fit;
 }
 
@@ -125,7 +133,9 @@ ImpactTime refine_impact(const PassageContext& context, const BankEvent& impact,
   const double dt = context.trace.dt;
   const double speed = std::abs(law.state(before_impact, static_cast<double>(result.core)).speed);
   const double mean_step = reversal.rise / static_cast<double>(std::max<std::size_t>(flight, 1));
-  Mark mark{impact.start, impact.latency, context.facts.sharing(std::max(speed * dt, mean_step))};
+  Mark mark{impact.start, impact.latency,
+            std::min(context.facts.sharing(std::max(speed * dt, mean_step)),
+                     static_cast<double>(context.trace.size()))};
   mark.latency = std::max(mark.latency, mark.samples(1.0));
   const OnsetFit onset = find_onset(context, mark, law, begin_of_law(law, result.core, before_impact.first));
   if (!onset.found) return result;
