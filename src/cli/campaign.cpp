@@ -135,7 +135,8 @@ void run(const CampaignArguments& a) {
   ReportFolder(folder, FolderKind::kCampaign, inputs).leave();  // the store keeps others out from here on
   const auto summary = run_and_summarise(c, shard, folder, a);
   ReportFolder report(folder, FolderKind::kCampaign, inputs);
-  if (shard.of == 1) return report_whole(report, folder, times_of(CampaignStore(folder)), summary, a.figures);
+  const CampaignTimes times = times_of(CampaignStore(folder));  // closed again before its folder is listed
+  if (shard.of == 1) return report_whole(report, folder, times, summary, a.figures);
   report.commit();
 }
 
@@ -193,7 +194,8 @@ void add_merge(CommandLine& campaign) {
     const CampaignSummary summary = summarise(CampaignStore(report.path()));
     say("store", a->target + "/results.sqlite");
     say("runs", fmt::format("{} of {}", merged, summary.runs));
-    report_whole(report, a->target, times_of(CampaignStore(report.path())), summary, {});
+    const CampaignTimes times = times_of(CampaignStore(report.path()));
+    report_whole(report, a->target, times, summary, {});
   });
 }
 
