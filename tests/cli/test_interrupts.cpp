@@ -68,7 +68,9 @@ class Interrupts : public ::testing::Test {
 /// The estimates are there by then.
 TEST_F(Interrupts, WhileTheReportIsDrawnTheReportIsCompleted) {
   for (const char* command : {"run", "fit", "detect"}) {
-    EXPECT_EQ(interrupted(command, "*.png", 1).status, 130) << command;
+    int status = 0;  // 0: on a busy machine all was drawn before the signal came
+    for (int tried = 0; tried < 5 && status == 0; ++tried) status = interrupted(command, "*.png", 1).status;
+    EXPECT_EQ(status, 130) << command;
     for (const char* file : {"r/result.json", "r/report.md", "r/report.html", "r/files.json"})
       EXPECT_TRUE(place_.content().contains(file)) << command << ": " << file;
     EXPECT_THAT(text_of(place_.folder() / "err.txt"), HasSubstr("reports what has been found")) << command;
