@@ -17,9 +17,9 @@ namespace {
 constexpr double kArrivals[] = {0.015, 0.03, 0.06, 0.12, 0.25};
 /// The shortest of them in which a lone motor shows; any law follows less.
 constexpr double kTellsAlone = 0.06;
-/// Of the flight: how long its own friction holds a motor that rests by it. Of four gap sine wide rubs,
-/// 5160033, 5160072 and 5110017 (44, 4 and 23 % too small) are refused by it, half and double, and 5160032
-/// (1.3 %) is told by it and double, not by half.
+/// Of the flight: how long its own friction holds a motor that rests by it. When it parted rests from turns
+/// as well, of four gap sine wide rubs, 5160033, 5160072 and 5110017 (44, 4 and 23 % too small) are refused
+/// by it, half and double, and 5160032 (1.3 %) is told by it and double, not by half.
 constexpr double kStay = 0.1;
 /// Mean square that one law may leave of the arrival, over the noise's. Where the load has left it is 1.1
 /// (3380020 gap trapezoid) and 0.9 (3387027), where it has not 1.3 to 90 over the last few counts (3380009,
@@ -137,32 +137,32 @@ RestingPlace resting_place(const MotorTrace& trace, const signals::SignalFacts& 
                            std::span<const RestBeforeFlight> passages) {
   const double least = facts.least_way();
   const std::vector<RestBeforeFlight> some = spread(passages);
-  std::vector<RestBeforeFlight> at_rest;
+  std::vector<RestBeforeFlight> seen;
   std::size_t rubbing = 0;
   for (const RestBeforeFlight& p : some) {
     if (p.core < p.begin + signals::MotionLaw::kFewestRows) continue;
     const bool rubs = rubs_to_rest(trace, p, least);
-    at_rest.push_back(p);
+    seen.push_back(p);
     rubbing += rubs;
   }
-  if (at_rest.empty()) return RestingPlace::kUntold;
+  if (seen.empty()) return RestingPlace::kUntold;
   std::vector<signals::LawStretch> flights;
-  for (const auto& p : at_rest) flights.push_back(flight_stretch(p));
+  for (const auto& p : seen) flights.push_back(flight_stretch(p));
   const signals::MotionLaw alone(trace, flights, signals::MotionLaw::Friction::kPassive);
   std::vector<double> held;
-  for (const auto& p : at_rest) held.push_back(held_back(trace, p.rest, alone.drive(), alone.dry()));
+  for (const auto& p : seen) held.push_back(held_back(trace, p.rest, alone.drive(), alone.dry()));
   if (median(held) > least) return RestingPlace::kAtLoad;
   const double noise = std::max(alone.rms(), facts.noise);
   std::optional<RestingPlace> nearest;
   for (const double share : kArrivals) {
-    const Arrivals a = arrivals(trace, at_rest, share, least);
+    const Arrivals a = arrivals(trace, seen, share, least);
     if (!(a.rows > 0.0)) continue;
     const double left = left_by_one_law(trace, alone, flights, a);
     const bool followed = left * left < kFollows * noise * noise;
-    if (share >= kTellsAlone && (followed || 2 * rubbing >= at_rest.size()) &&
+    if (share >= kTellsAlone && (followed || 2 * rubbing >= seen.size()) &&
         can_be_alone(trace, facts, alone, a))
       return RestingPlace::kAlone;
-    const bool departs = !followed && left > kOwnBending * std::max(share * at_rest.front().rest.rise, least);
+    const bool departs = !followed && left > kOwnBending * std::max(share * seen.front().rest.rise, least);
     if (!nearest) nearest = departs ? RestingPlace::kAtLoad : RestingPlace::kUntold;
   }
   return nearest.value_or(RestingPlace::kUntold);

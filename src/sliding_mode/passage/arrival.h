@@ -14,7 +14,7 @@ namespace gapscope::internal::sliding_mode {
 /// leaves 0.015 to 0.03 of the arrival, a contact 0.07 to 0.4.
 constexpr double kOwnBending = 0.05;
 
-/// A rest, and samples of the motor alone after it.
+/// A rest or a turn, and samples of the motor alone after it.
 struct RestBeforeFlight {
   Reversal rest;
   std::size_t begin = 0, core = 0;  ///< of the flight
