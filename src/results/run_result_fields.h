@@ -109,6 +109,7 @@ void fields(Archive& archive, GapEstimate& g) {
   archive.added("lost_motion_ci95_rad", g.lost_motion.ci95);
   archive.added("lost_motion", g.lost_motion);
   archive("smallest_visible_gap_rad", g.smallest_visible_gap);
+  archive.added("whole_gap_rad", g.whole);
   archive.added("gap_at_most_rad", g.gap_at_most);
   archive.added_choice(
       "trust", g.trust,

@@ -134,7 +134,11 @@ void FrozenSearch::read_core(std::size_t end) {
     if (start < core_ || start >= end) continue;
     ++marks_;
     ++tops_[events[i].top];
-    if (i == 0 || events[i].sign == events[i - 1].sign || start <= last_impact_) continue;
+    if (i == 0 || start <= last_impact_) continue;
+    if (events[i].sign == events[i - 1].sign) {
+      if (!kept_.empty()) see_later(kept_.back().passage, trace, events[i]);
+      continue;
+    }
     last_impact_ = start;
     keep(read_passage(context, events[i - 1], events[i], frozen_.bounds[frozen_.sliding]), marks_);
   }

@@ -175,6 +175,15 @@ Remark narrow_interval() { return {"narrow_interval", "known to an eighth"}; }
 Remark levels_agree() { return {"levels_agree", "same at two torque levels"}; }
 Remark same_with_other_bounds() { return {"same_with_other_bounds", "same with other bounds"}; }
 Remark one_gap() { return {"one_gap", "there is one gap, not several in series"}; }
+Remark one_impact() {
+  return {"one_impact", "no later impact is more abrupt than the one that closes the gap"};
+}
+Remark second_impact() {
+  return {
+      "second_impact",
+      "; behind them a second impact, more abrupt than the first: several gaps in series, of which this is "
+      "the first"};
+}
 Remark load_rests() { return {"load_rests", "load rests between t1 and t2"}; }
 Remark own_encoder() { return {"own_encoder", "x1 is what the encoder read, not filtered since"}; }
 

@@ -84,6 +84,8 @@ Remark narrow_interval();
 Remark levels_agree();
 Remark same_with_other_bounds();
 Remark one_gap();
+Remark one_impact();
+Remark second_impact();  ///< added to another
 Remark load_rests();
 Remark own_encoder();
 

@@ -179,9 +179,20 @@ Said play(const Findings& f) {
   return model;
 }
 
-/// The model has the whole; where it tells no more than that it is larger, the reading is what is known.
+/// A second impact tells first and whole. Else the model has the whole; where it tells no more than that it
+/// is larger, the reading is what is known.
 Said first(const Findings& f) {
   const FittedParameter* gap = told_gap(f);
+  if (const GapEstimate& g = *f.model_free; std::isfinite(g.whole)) {
+    Said a{{{"gap.first", {length("gap", g.gap, g.ci95), length("whole", g.whole)}}},
+           g.gap,
+           g.ci95,
+           AnswerSource::kModelFree,
+           AnswerTrust::kLimited};
+    if (gap != nullptr)
+      add(a, {{"gap.first.reference", {length("other", gap->value, f.reference->shown_interval(*gap))}}});
+    return a;
+  }
   Said a = gap == nullptr ? from_model_free(f, AnswerTrust::kLimited)
                           : from_reference(f, *gap, AnswerTrust::kLimited);
   add(a, {{"gap.model_free.first", {length("other", f.model_free->gap, f.model_free->ci95)}}});

@@ -24,6 +24,11 @@ constexpr Wording kWordings[] = {
      "The reading without a model[, {other},] agrees."},
     {"gap.reference.agrees", "The fitted model agrees."},
     {"gap.model_free.contradicts", "But without a model it reads {other}."},
+    {"gap.first",
+     "There are several gaps in series: the first is {gap}, all together are about {whole}, by two impacts "
+     "in "
+     "each passage."},
+    {"gap.first.reference", "The fitted model, which has one gap, gives {other}."},
     {"gap.model_free.first",
      "The impacts alone read {other}: the first of several gaps in series, or a load that moved."},
     {"gap.reference.contradicts", "But the fitted model gives {other}."},

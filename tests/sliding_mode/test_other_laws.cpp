@@ -17,11 +17,29 @@ struct Read {
   bool holds() const { return estimate.ci95.low <= truth.high && truth.low <= estimate.ci95.high; }
 };
 
-Read read(const std::string& family, std::uint64_t seed) {
-  const independent_plant::ChainCase c = independent_plant::draw_family(family, seed);
+Read read(const independent_plant::ChainCase& c) {
   const independent_plant::ChainRun run = independent_plant::simulate_chain(c);
   const MotorTrace trace = run.recording.motor_trace();
   return {detect_gap({&trace, 1}), independent_plant::total_gap(c.drive)};
+}
+
+Read read(const std::string& family, std::uint64_t seed) {
+  return read(independent_plant::draw_family(family, seed));
+}
+
+/// A bounce is weaker than the impact before it; what is stronger is the impact of another gap.
+TEST(OtherLaws, ASecondImpactThatIsStrongerTellsTheFirstOfSeveralGaps) {
+  int seen = 0;
+  for (const std::uint64_t seed : {1, 7, 10}) {  // the ones of ten that are read in single passages
+    independent_plant::ChainCase c = independent_plant::draw_family("two_gaps", seed);
+    c.drive.bodies[1].inertia = c.drive.bodies[0].inertia;
+    const Read drive = read(c);
+    EXPECT_FALSE(drive.well()) << seed << ": " << drive.estimate.brief_report();
+    if (drive.estimate.quantity != GapQuantity::kFirstGap) continue;
+    ++seen;
+    EXPECT_NEAR(drive.estimate.whole, drive.truth.low, 0.1 * drive.truth.low) << seed;
+  }
+  EXPECT_GE(seen, 2);
 }
 
 /// The motor leaves a bounce, rests within the gap and goes on from there.

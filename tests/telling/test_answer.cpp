@@ -71,6 +71,18 @@ TEST(Answer, OfAFirstGapTheWholeIsToldByTheModelThatAsksForIt) {
   EXPECT_THAT(a.next_codes, ::testing::Contains("next.hold_output"));
 }
 
+TEST(Answer, OfASecondImpactFirstAndWholeAreTold) {
+  GapEstimate g = reading(0.0247, 6e-4);
+  g.quantity = GapQuantity::kFirstGap, g.trust = GapTrust::kLimited, g.whole = 0.034;
+  const Answer a = of(&g, nullptr);
+  EXPECT_EQ(a.from, AnswerSource::kModelFree);
+  EXPECT_EQ(a.trust, AnswerTrust::kLimited);
+  EXPECT_DOUBLE_EQ(a.gap, 0.0247);
+  EXPECT_THAT(a.codes, ElementsAre("gap.first"));
+  const FitSummary fit = fitted(FitTrust::kLimited, 0.0332, 3e-3);
+  EXPECT_THAT(of(&g, &fit).codes, ElementsAre("gap.first", "gap.first.reference"));
+}
+
 TEST(Answer, OfWhatIsNotReadABoundIsTold) {
   GapEstimate g = undecided();
   g.gap_at_most = 0.05;

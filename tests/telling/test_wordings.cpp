@@ -17,7 +17,7 @@ Fact example_of(const std::string& key) {
     std::map<std::string, Fact> all;
     const auto put = [&](Fact fact) { all.emplace(fact.key, std::move(fact)); };
     for (const char* length : {"least", "play", "lost", "small", "large", "limit", "scatter", "off", "given",
-                               "travel", "held", "miss", "all", "all_mended", "mended", "rms"})
+                               "travel", "whole", "held", "miss", "all", "all_mended", "mended", "rms"})
       put(number(length, 0.0187, "rad"));
     put(number("gap", 0.0187, "rad", {0.0185, 0.0189}));
     put(number("other", 0.0191, "rad", {0.0188, 0.0194}));

@@ -13,7 +13,7 @@ enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
 enum class GapMethod { kImpact, kPaper, kLiteral, kLostMotion };
 enum class GapQuantity {
   kGap,
-  kFirstGap,  ///< of several in series, as a fitted model that asks for more says; the whole is larger
+  kFirstGap,  ///< of several in series, as a second impact or a fitted model says; the whole is larger
   kPlayAtZeroTorque
 };
 
@@ -110,6 +110,7 @@ struct GapEstimate {
   Interval ci95;                       ///< [rad]; kLiteral claims none
   double smallest_visible_gap = kNaN;  ///< [rad], for loads that the reason names; always there for kNone
   double gap_at_most = kNaN;           ///< no gap is larger [rad]; NaN: no such bound is known
+  double whole = kNaN;                 ///< kFirstGap: all gaps together, by the second impact [rad]
   double bound = kNaN;                 ///< L that decided t2 [rad/s²]
   double bound_t1 = kNaN;              ///< L whose e_x is in `traces`, where a bank has read [rad/s²]
   double paper_bound = kNaN;           ///< lower end of (13), where a model gave one [rad/s²]

@@ -318,6 +318,7 @@ Passage read_passage(const PassageContext& context, const BankEvent& before, con
   const double needed = std::max(
       sliding,
       bound_needed_before(run, from, to - std::min(to - from, std::max<std::size_t>(2, impact.latency))));
+  t.abruptness = impact.abruptness;
   t.contrast = impact.abruptness / needed;
   if (t.contrast < kContrast)
     t.refusal = Refusal::kContrast, t.most = kNaN;
@@ -326,12 +327,21 @@ Passage read_passage(const PassageContext& context, const BankEvent& before, con
   return t;
 }
 
+void see_later(Passage& t, const MotorTrace& trace, const BankEvent& later) {
+  const double share = later.abruptness / t.abruptness;
+  if (!(share > t.later)) return;
+  t.later = share;
+  t.to_later = std::abs(trace.x1[later.start] - t.event.x1_t1);
+}
+
 std::vector<Passage> read_passages(const PassageContext& context, std::span<const BankEvent> events,
                                    double sliding) {
   std::vector<Passage> passages;
   for (std::size_t i = 1; i < events.size(); ++i)
     if (events[i].sign != events[i - 1].sign)
       passages.push_back(read_passage(context, events[i - 1], events[i], sliding));
+    else if (!passages.empty())
+      see_later(passages.back(), context.trace, events[i]);
   read_coasting(context.trace, context.facts, passages);
   refuse_pushed_loads(context.trace, context.facts, passages);
   return passages;

@@ -25,6 +25,9 @@ struct Passage {
   double stiffness = 0.0;     ///< of the contact, over the motor's inertia; 0: rigid [1/s²]
   double load_travel = 0.0;   ///< assumed between t1 and t2 [rad]
   double most = kNaN;         ///< the gap, of a load that kept its speed from wherever it parted [rad]
+  double abruptness = 0.0;    ///< of the impact [rad/s²]
+  double later = 0.0;         ///< of the most abrupt mark of its sign before the next passage, over that
+  double to_later = kNaN;     ///< what x1 goes from t1 to that mark [rad]
   bool dwell = false;         ///< the motor rested before it entered the gap
   bool untold = false;        ///< … and whether that was at its load is not to be seen
   bool by_law = false;        ///< the load's travel is by the law of the engaged flank
@@ -48,6 +51,9 @@ struct PassageContext {
 /// @param sliding  L_acc, the smallest bound that slides 80 % of the time [rad/s²]
 Passage read_passage(const PassageContext& context, const BankEvent& before, const BankEvent& impact,
                      double sliding);
+
+/// What came behind a passage, before the next one: a mark of the same sign.
+void see_later(Passage& passage, const MotorTrace& trace, const BankEvent& later);
 
 /// All passages of a recording, read again together where the load moves (coasting.h) or is driven
 /// (pushed_load.h).

@@ -71,6 +71,7 @@ GapEstimate conclude(GapEvidence e) {
   estimate.trust = all && e.quantity == GapQuantity::kGap ? GapTrust::kGood : GapTrust::kLimited;
   estimate.verdict = GapVerdict::kBacklash;
   estimate.gap = e.gap;
+  estimate.whole = e.whole;
   estimate.std = std;
   estimate.ci95 = {std::max(e.gap - kNormal95 * std, 0.0), e.gap + kNormal95 * std};
   estimate.reason = e.reading;

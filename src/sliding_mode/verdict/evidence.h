@@ -29,6 +29,7 @@ struct GapEvidence {
   Remark reading;                      ///< how it was read
   Remark against;                      ///< why it is no reading; empty: nothing speaks against it
   double smallest_visible_gap = kNaN;  ///< that is told with it [rad]
+  double whole = kNaN;                 ///< of kFirstGap: all gaps together [rad]
   double at_most = kNaN;               ///< no gap is larger; NaN: no such bound [rad]
   bool denies = false;                 ///< no gap above that, and `reading` is why
   std::vector<GapEvent> events;

@@ -131,6 +131,21 @@ bool load_known(const Pool& pool) {
   return 2 * known >= std::ssize(pool.accepted);
 }
 
+/// Over the impact: a mark behind it that is more abrupt is no bounce of it, which has lost of its speed, but
+/// another impact: that of a second gap. Of 105 drives of another simulator with one gap that are
+/// read no median is beyond 1, of 14 with two gaps 11 are; half takes 33 of the former, double none.
+constexpr double kBounces = 1.0;
+
+/// What x1 goes until the last of several gaps in series is closed, where most passages show a second impact
+/// [rad]; else NaN.
+double to_second_impact(const Pool& pool) {
+  if (!(median_of(pool, &Passage::later) > kBounces)) return kNaN;
+  std::vector<double> ways;
+  for (const Passage* p : pool.accepted)
+    if (std::isfinite(p->to_later)) ways.push_back(p->to_later + p->load_travel);
+  return median(std::move(ways));
+}
+
 /// No gap is larger than what most half periods show; the upper quartile, for one that is none.
 double at_most(const Pool& pool) {
   if (static_cast<double>(pool.largest.size()) < kMost * pool.half_periods) return kNaN;
@@ -220,8 +235,14 @@ GapEvidence gap_evidence(const Pool& pool) {
   e.tested = {{words::both_directions(), both},
               {words::single_passages(), true},
               {words::load_known(), load_known(pool)}};
-  e.presumes = {words::one_gap(), words::own_encoder()};
+  e.presumes = {words::own_encoder()};
   e.reading = words::passages_used(static_cast<long>(m.used), static_cast<long>(pool.seen()), m.only);
+  e.whole = to_second_impact(pool);
+  e.tested.push_back({words::one_impact(), std::isnan(e.whole)});
+  if (std::isfinite(e.whole))
+    e.quantity = GapQuantity::kFirstGap, e.reading += words::second_impact();
+  else
+    e.presumes.insert(e.presumes.begin(), words::one_gap());
   e.smallest_visible_gap = pool.finest < m.gap ? pool.finest : kNaN;  // it foretells, this one shows
   return e;
 }
