@@ -143,7 +143,8 @@ double to_second_impact(const Pool& pool) {
   std::vector<double> ways;
   for (const Passage* p : pool.accepted)
     if (std::isfinite(p->to_later)) ways.push_back(p->to_later + p->load_travel);
-  return median(std::move(ways));
+  const double whole = median(std::move(ways));
+  return whole < kMostOfTravel * pool.travel ? whole : kNaN;  // there the stroke itself ends
 }
 
 /// No gap is larger than what most half periods show; the upper quartile, for one that is none.
