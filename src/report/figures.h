@@ -16,6 +16,7 @@ FigureData fig5_displacement_and_error(const ReportView& view);
 FigureData fig6_one_period(const ReportView& view);
 FigureData bound_time_map(const ReportView& view);
 FigureData lost_motion_loop(const ReportView& view);
+FigureData reversal_shelf(const ReportView& view);
 FigureData estimates(const ReportView& view);
 FigureData residuals(const ReportView& view);
 FigureData fit_starts(const ReportView& view);

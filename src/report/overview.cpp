@@ -68,6 +68,7 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
   borrow(sheet, figures, "fig6_one_period.png", 1, 480.0, view.error_title("Its estimation error"));
   if (sheet.panels.size() < 3) borrow(sheet, figures, "fig5_displacement_and_error.png", 1, 420.0);
   borrow(sheet, figures, "lost_motion_loop.png", 0, 480.0, "Displacement against input");
+  borrow(sheet, figures, "reversal_shelf.png", 0, 480.0, "Input behind the reversals");
   if (has_something_to_compare(view))
     for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
   borrow(sheet, figures, "fig3_backlash_map.png", 1, 420.0, "Backlash map");
@@ -87,6 +88,7 @@ std::vector<FigureData> all_figures(const ReportView& view) {
                                    fig6_one_period,
                                    bound_time_map,
                                    lost_motion_loop,
+                                   reversal_shelf,
                                    estimates,
                                    residuals,
                                    fit_starts};

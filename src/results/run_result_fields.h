@@ -97,7 +97,8 @@ void fields(Archive& archive, GapEstimate& g) {
                  Words<GapMethod>{{GapMethod::kImpact, "impact"},
                                   {GapMethod::kPaper, "paper"},
                                   {GapMethod::kLiteral, "literal"},
-                                  {GapMethod::kLostMotion, "lost_motion"}});
+                                  {GapMethod::kLostMotion, "lost_motion"},
+                                  {GapMethod::kReversal, "reversal"}});
   archive.choice("quantity", g.quantity,
                  Words<GapQuantity>{{GapQuantity::kGap, "gap"},
                                     {GapQuantity::kFirstGap, "first_gap"},

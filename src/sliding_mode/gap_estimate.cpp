@@ -31,6 +31,8 @@ const char* to_string(GapMethod method) {
       return "literal";
     case GapMethod::kLostMotion:
       return "lost_motion";
+    case GapMethod::kReversal:
+      return "reversal";
   }
   return "";
 }

@@ -185,6 +185,14 @@ Remark second_impact() {
       "the first"};
 }
 Remark load_rests() { return {"load_rests", "load rests between t1 and t2"}; }
+Remark pushed_until_turn() { return {"pushed_until_turn", "the load was pushed until x1 turned round"}; }
+Remark shelf_read(long reversals, double way) {
+  return {
+      "shelf_read",
+      "the torque behind {} reversals: low for {:.3g} [rad], where the motor moves alone, then the load's "
+      "friction on top",
+      {reversals, way}};
+}
 Remark own_encoder() { return {"own_encoder", "x1 is what the encoder read, not filtered since"}; }
 
 Remark stands_still() { return {"stands_still", "x1 moves by less than its noise"}; }

@@ -76,6 +76,9 @@ Remark play_at_some_levels();
 Remark loop_runs_backwards(std::span<const Play> levels);
 Remark free_run_without_play(std::span<const Play> levels, double free_run);
 
+// The torque behind a reversal.
+Remark shelf_read(long reversals, double way);
+
 // What a reading was tested for, and what it presumes.
 Remark both_directions();
 Remark single_passages();
@@ -87,6 +90,7 @@ Remark one_gap();
 Remark one_impact();
 Remark second_impact();  ///< added to another
 Remark load_rests();
+Remark pushed_until_turn();
 Remark own_encoder();
 
 // One bound, as published.

@@ -163,6 +163,25 @@ TEST(LostMotionLoop, MarksThePlayAtZeroTorqueWhateverTheVerdict) {
   EXPECT_NE(panel.dimensions[0].label.find("5.00 mrad"), std::string::npos) << panel.dimensions[0].label;
 }
 
+TEST(ReversalShelf, IsTheInputAlongTheMotionOverTheWayBehindATurn) {
+  EXPECT_FALSE(reversal_shelf(ReportView(full_run())).missing.empty());
+  RunResult run = full_run();
+  GapEstimate& g = *run.model_free;
+  g.method = GapMethod::kReversal;
+  const Recording& r = run.recordings.front();
+  GapEvent turn;
+  turn.file = r.file, turn.direction = -1;
+  turn.t1 = r.start, turn.x1_t1 = r.x1.front();
+  g.events = {turn};
+  const Panel panel = reversal_shelf(ReportView(run)).panels[0];
+  ASSERT_EQ(panel.series.size(), 2u);
+  EXPECT_TRUE(panel.series[0].x.empty()) << "no rising stroke";
+  ASSERT_FALSE(panel.series[1].x.empty());
+  EXPECT_DOUBLE_EQ(panel.series[1].x[0], 0.0);
+  ASSERT_EQ(panel.x_bands.size(), 1u);
+  EXPECT_DOUBLE_EQ(panel.x_bands[0].range.low, g.ci95.low);
+}
+
 TEST(LostMotionLoop, HasAColourAndAFlankForEachTorqueLevel) {
   const RunResult run = with_loops();
   const Panel panel = lost_motion_loop(ReportView(run)).panels[0];

@@ -10,7 +10,7 @@
 namespace gapscope {
 
 enum class GapVerdict { kNotRun, kBacklash, kNone, kInconclusive };
-enum class GapMethod { kImpact, kPaper, kLiteral, kLostMotion };
+enum class GapMethod { kImpact, kPaper, kLiteral, kLostMotion, kReversal };
 enum class GapQuantity {
   kGap,
   kFirstGap,  ///< of several in series, as a second impact or a fitted model says; the whole is larger
@@ -33,7 +33,7 @@ enum class GapTrust {
 };
 
 const char* to_string(GapVerdict verdict);     ///< "not_run", "backlash", "none", "inconclusive"
-const char* to_string(GapMethod method);       ///< "impact", "paper", "literal", "lost_motion"
+const char* to_string(GapMethod method);       ///< "impact", "paper", "literal", "lost_motion", "reversal"
 const char* to_string(GapQuantity quantity);   ///< "gap", "play_at_zero_torque"
 const char* to_string(GapTrust trust);         ///< "none", "limited", "good"
 const char* to_string(LostMotionCause cause);  ///< "not_read", "gap", "friction_and_compliance", "open"

@@ -6,6 +6,7 @@
 
 #include "sliding_mode/verdict/pool.h"
 #include "sliding_mode/verdict/pooled_reading.h"
+#include "sliding_mode/verdict/shelf.h"
 #include "sliding_mode/visible_gap.h"
 #include "sliding_mode/words.h"
 
@@ -37,6 +38,8 @@ GapEstimate decide_gap(std::span<const MotorTrace> recordings, std::span<const s
   GapEvidence passages = gap_evidence(pool);
   GapEstimate estimate = conclude(passages);
   if (estimate.verdict == GapVerdict::kBacklash) return estimate;
+  if (!options.locked && options.method == DetectorMethod::kAuto)
+    if (auto shelf = read_shelf(recordings, facts)) return conclude(std::move(*shelf));
   if (!options.locked && !pool.load_is_pushed() && pool.load_rests())
     if (auto together = read_pooled(recordings, facts)) return conclude(std::move(*together));
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
