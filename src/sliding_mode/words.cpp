@@ -186,6 +186,7 @@ Remark second_impact() {
 }
 Remark load_rests() { return {"load_rests", "load rests between t1 and t2"}; }
 Remark pushed_until_turn() { return {"pushed_until_turn", "the load was pushed until x1 turned round"}; }
+Remark same_by_torque() { return {"same_by_torque", "the torque behind the reversals tells the same"}; }
 Remark shelf_read(long reversals, double way) {
   return {
       "shelf_read",

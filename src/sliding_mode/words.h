@@ -91,6 +91,7 @@ Remark one_impact();
 Remark second_impact();  ///< added to another
 Remark load_rests();
 Remark pushed_until_turn();
+Remark same_by_torque();
 Remark own_encoder();
 
 // One bound, as published.

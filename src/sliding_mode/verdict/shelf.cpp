@@ -9,6 +9,7 @@
 #include "gapscope/base/statistics.h"
 #include "signals/encoder.h"
 #include "signals/strokes.h"
+#include "sliding_mode/free_body.h"
 #include "sliding_mode/verdict/pool.h"
 #include "sliding_mode/words.h"
 
@@ -37,8 +38,8 @@ constexpr double kToHalfRise = 1.5;  ///< widths of the rise, from the gap's to 
 /// From one turn to the next.
 struct Stroke {
   int direction = 0;
-  std::size_t turn = 0, end = 0;  ///< samples
-  double place = 0.0;             ///< of x1 at the turn [rad]
+  std::size_t before = 0, turn = 0, end = 0;  ///< the turn before it, its own and the next [samples]
+  double place = 0.0;                         ///< of x1 at the turn [rad]
 };
 
 /// The torque along the motion, over the way since the turn.
@@ -75,9 +76,9 @@ std::vector<Stroke> strokes_of(const MotorTrace& trace, const signals::SignalFac
   const std::vector<signals::StrokeTurn> turns = signals::turns(trace.x1);
   std::vector<Stroke> strokes;
   for (std::size_t k = 0; k + 1 < turns.size(); ++k)
-    strokes.push_back({turns[k].direction, turns[k].sample, turns[k + 1].sample,
-                       place_of_turn(trace, facts, turns[k].sample)});
-  return strokes;
+    strokes.push_back({turns[k].direction, k > 0 ? turns[k - 1].sample : 0, turns[k].sample,
+                       turns[k + 1].sample, place_of_turn(trace, facts, turns[k].sample)});
+  return spread(std::span<const Stroke>(strokes));
 }
 
 double way_at(const MotorTrace& trace, const Stroke& s, std::size_t i) {
@@ -198,13 +199,13 @@ double width_at(const MotorTrace& trace, const Stroke& s, const TwoLevels& level
 
 /// What is left of the way to the turn where the torque that moved the drive there was last beyond the middle
 /// of its step.
-double unseen_way(const MotorTrace& trace, const Stroke& s, const TwoLevels& before, std::size_t from) {
+double unseen_way(const MotorTrace& trace, const Stroke& s, const TwoLevels& before) {
   std::size_t i = s.turn;
-  while (i > from && before.share(-s.direction * trace.u[i]) < kHalf) --i;
+  while (i > s.before && before.share(-s.direction * trace.u[i]) < kHalf) --i;
   return std::max(way_at(trace, s, i), 0.0);
 }
 
-std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shelf& shelf, std::size_t from) {
+std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shelf& shelf) {
   const TwoLevels& levels = shelf.levels[side(s.direction)];
   const std::size_t end = end_of_window(trace, s, shelf.window);
   std::size_t begin = s.turn;
@@ -226,7 +227,7 @@ std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shel
   r.way = (1.0 - part) * way_at(trace, s, at - 1) + part * way_at(trace, s, at);
   r.step = (way_at(trace, s, at) - way_at(trace, s, begin)) / static_cast<double>(at - begin);
   r.width = width_at(trace, s, levels, at, end);
-  r.unseen = unseen_way(trace, s, shelf.levels[side(-s.direction)], from);
+  r.unseen = unseen_way(trace, s, shelf.levels[side(-s.direction)]);
   return r;
 }
 
@@ -266,9 +267,9 @@ std::optional<GapEvidence> shelf_of(const MotorTrace& trace, const signals::Sign
   const auto shelf = agreed_shelf(trace, facts, strokes);
   if (!shelf) return {};
   Rises reading;
-  for (std::size_t k = 0; k < strokes.size(); ++k)
-    if (const auto rise = rise_of(trace, strokes[k], *shelf, k > 0 ? strokes[k - 1].turn : 0))
-      reading.rises.push_back(*rise), reading.strokes.push_back(strokes[k]);
+  for (const Stroke& s : strokes)
+    if (const auto rise = rise_of(trace, s, *shelf))
+      reading.rises.push_back(*rise), reading.strokes.push_back(s);
   const auto up = reading.of(&Rise::way, 1), down = reading.of(&Rise::way, -1);
   if (std::min(up.size(), down.size()) < kFewestEachWay) return {};
   const double n = static_cast<double>(reading.rises.size());

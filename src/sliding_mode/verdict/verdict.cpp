@@ -1,9 +1,12 @@
 #include "sliding_mode/verdict/verdict.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/normal.h"
 #include "sliding_mode/verdict/pool.h"
 #include "sliding_mode/verdict/pooled_reading.h"
 #include "sliding_mode/verdict/shelf.h"
@@ -22,6 +25,10 @@ double one_body_gap(std::span<const MotorTrace> recordings, std::span<const sign
   return gap;
 }
 
+bool agree(const GapEvidence& a, const GapEvidence& b) {
+  return std::abs(a.gap - b.gap) <= kNormal95 * std::hypot(a.parts.together(), b.parts.together());
+}
+
 /// Whether nothing was read of recordings in which something could have been.
 bool may_deny(const Pool& pool, const GapEvidence& evidence) {
   return !evidence.against.empty() && pool.half_periods > 0.0;
@@ -36,10 +43,13 @@ GapEstimate decide_gap(std::span<const MotorTrace> recordings, std::span<const s
   for (const MotorTrace& recording : recordings) intervals.push_back(recording.dt);
   const Pool pool = pool_of(analyses, intervals);
   GapEvidence passages = gap_evidence(pool);
+  auto shelf = !options.locked && options.method == DetectorMethod::kAuto ? read_shelf(recordings, facts)
+                                                                          : std::nullopt;
+  if (shelf && passages.against.empty() && passages.quantity == GapQuantity::kGap)
+    passages.tested.push_back({words::same_by_torque(), agree(passages, *shelf)});
   GapEstimate estimate = conclude(passages);
   if (estimate.verdict == GapVerdict::kBacklash) return estimate;
-  if (!options.locked && options.method == DetectorMethod::kAuto)
-    if (auto shelf = read_shelf(recordings, facts)) return conclude(std::move(*shelf));
+  if (shelf) return conclude(std::move(*shelf));
   if (!options.locked && !pool.load_is_pushed() && pool.load_rests())
     if (auto together = read_pooled(recordings, facts)) return conclude(std::move(*together));
   const bool ask_loop = options.method == DetectorMethod::kAuto && (loops.decides || options.locked);
