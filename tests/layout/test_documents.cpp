@@ -101,4 +101,18 @@ TEST(Documents, GiveConstantsTheValuesThatTheyHaveInTheSources) {
   }
 }
 
+/// What a row says was counted with the version of its record, or the row says that it was not.
+TEST(Documents, GiveEachHeadlineFigureTheVersionThatItWasCountedWith) {
+  const std::string table = text_of(kProject / "docs/headline_figures.md");
+  const std::regex row(R"rx(\]\((record/figures/\w+\.txt)\) \| ([^|;]*)(;[^|]*)? \|\n)rx");
+  const auto rows = matches(table, row);
+  EXPECT_GE(rows.size(), 26u);
+  for (const std::smatch& m : rows) {
+    const std::string record = text_of(kProject / "docs" / m[1].str()), counted_anew = m[3];
+    EXPECT_TRUE(record.starts_with(m[2].str() + ";") || counted_anew.starts_with("; counted anew with "))
+        << m[1] << " says " << record.substr(0, record.find('\n')) << ", the table " << m[2];
+    EXPECT_NE(record.find("\n$ "), std::string::npos) << m[1] << " names no command with its seeds";
+  }
+}
+
 }  // namespace
