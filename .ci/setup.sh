@@ -36,3 +36,4 @@ build() {
 mapfile -t packages <.ci/packages            # to build and to run gapscope
 mapfile -t test_packages <.ci/test_packages  # for the tests, besides
 python_packages=(pybind11-dev python3-dev python3-numpy)  # for the Python package, besides
+benchmark_packages=(libbenchmark-dev libboost-dev libsundials-dev)  # what the simulator is compared with
