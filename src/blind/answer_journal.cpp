@@ -60,7 +60,7 @@ void AnswerJournal::read(const std::string& check) {
   if (!begun || line != head)
     throw ConfigError(
         path_, 1,
-        "begins with " + shown(line, 200) + ", expected " + shown(head, 200) + "; remove it to begin anew");
+        "begins with " + shown(line, 200) + ", expected " + shown(head, 200) + "; remove it to start again");
   chain_ = sha256(head);
   for (int number = 2; std::getline(in, line) && !in.eof(); ++number) take(line, number);
   require_read();  // or answers that are there would be given again
@@ -73,7 +73,7 @@ void AnswerJournal::take(const std::string& line, int number) {
   if (line.substr(0, end) != chain_)
     throw ConfigError(path_, number,
                       "is not as it was written, or follows another line than it did, expected it and those "
-                      "before it unchanged; remove the file to begin anew");
+                      "before it unchanged; remove the file to start again");
   const BlindAnswer answer = blind_answer_of(text, path_ + ":" + std::to_string(number));
   if (!answers_.emplace(answer.name, answer).second)
     throw ConfigError(path_, number,

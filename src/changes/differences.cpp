@@ -101,9 +101,8 @@ void compare_method(const DriveReport& first, const DriveReport& r, Lines& lines
 void add_misfit(const DriveReport& r, Lines& lines) {
   if (!r.reference) return;
   if (r.reference->rejected())
-    return lines.push_back(
-        fmt::format("{}: the numbers of the reference are left out, its model is rejected. {}", r.folder,
-                    r.reference->why.text()));
+    return lines.push_back(fmt::format("{}: its fitted numbers are left out, the model is rejected. {}",
+                                       r.folder, r.reference->why.text()));
   if (!r.reference->converged()) return;
   const double floors = r.reference->innovation_rmse / r.reference->floor;
   if (floors > kUnexplained)
@@ -111,7 +110,7 @@ void add_misfit(const DriveReport& r, Lines& lines) {
         fmt::format("{}: the model leaves more than the encoder explains (prediction error {:.2g} encoder "
                     "floors): a change "
                     "of what it lacks "
-                    "moves every number of the reference, and their intervals do not hold that",
+                    "moves every fitted number, and their intervals do not hold that",
                     r.folder, floors));
 }
 

@@ -45,7 +45,8 @@ Observation told(const LoopMean& mean) {
 Observation answered(const DriveReport& r) {
   if (!r.answer) return untold("no answer");
   const Answer& a = *r.answer;
-  Observation o = std::isfinite(a.gap) ? told(a.gap, kNaN, a.ci95) : at_most(a.gap_at_most, "no gap is told");
+  Observation o =
+      std::isfinite(a.gap) ? told(a.gap, kNaN, a.ci95) : at_most(a.gap_at_most, "no gap is given");
   o.trust = to_string(a.trust);
   return o;
 }
@@ -130,7 +131,7 @@ Observation fitted(const DriveReport& r, const std::string& key) {
 Observation missing_torque(const DriveReport& r) {
   if (!r.diagnosis) return untold("not diagnosed");
   const MismatchSize& gap = r.diagnosis->mismatch;
-  if (!std::isfinite(gap.before_torque)) return untold("not told as a torque");
+  if (!std::isfinite(gap.before_torque)) return untold("not known as a torque");
   const double square = gap.before_torque * gap.before_torque, floor = gap.floor_torque * gap.floor_torque;
   if (!std::isfinite(floor)) return told(gap.before_torque, kNaN, {});
   return told(gap.before_torque, kNaN, {std::sqrt(std::max(square - floor, 0.0)), std::sqrt(square + floor)});

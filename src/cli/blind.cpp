@@ -66,8 +66,7 @@ void add_make(CommandLine& blind) {
       "Writes per case <case>_train.csv, <case>_held_out.csv (t [s], u, x1 [rad]) and <case>.yaml, a data "
       "sheet off by\n"
       "up to 20 %, and manifest.json: SHA-256 of every file and, salted, of every label. All follows from "
-      "the "
-      "seeds:\n"
+      "the seeds:\n"
       "keep them from everybody from whom the labels are kept.\n\n"
       "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
   command.action([a] { make(*a); });
@@ -83,7 +82,7 @@ void put_in(const BlindArguments& a) {
 void add_implant(CommandLine& blind) {
   auto a = std::make_shared<BlindArguments>();
   CommandLine command = blind.add_command("implant", "Puts known effects into one's own recordings");
-  command.add_option("CONFIG", a->config, "of the drive (YAML), as `gapscope diagnose` takes it").required();
+  command.add_option("CONFIG", a->config, "of the drive (YAML), as for `gapscope diagnose`").required();
   add_handing_out_options(command, a);
   command.footer(
       "A recorded drive obeyed m a = Km u + rest. Under u' = u - torque/Km the same motion is that of a "
@@ -150,7 +149,7 @@ void add_answer(CommandLine& blind) {
   command.footer(
       "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes "
       "on.\n"
-      "The seal depends on every recording and every answer: tell it before the labels are opened.\n\n"
+      "The seal depends on every recording and every answer: pass it on before the labels are opened.\n\n"
       "Example: gapscope blind answer cases -o answers.json");
   command.action([a] { answer(*a); });
 }
@@ -183,8 +182,8 @@ void add_score(CommandLine& blind) {
       "Example: gapscope blind score cases labels.json answers.json -o reports/check");
   command.action([a, seal] {
     if (seal.given() && a->seal.size() != 64)
-      throw ConfigError(
-          fmt::format("gapscope: --seal is '{}', expected the 64 digits that `blind answer` told", a->seal));
+      throw ConfigError(fmt::format(
+          "gapscope: --seal is '{}', expected the 64 digits that `blind answer` printed", a->seal));
     const BlindScore score = score_blind_check(a->cases, a->labels, a->answers, a->seal);
     const std::string folder = a->folder.empty() ? "reports/" + score.name : a->folder;
     ReportFolder report(folder, FolderKind::kBlind, {a->labels, a->answers});
@@ -211,8 +210,7 @@ void add_whole(CommandLine& blind) {
   add_work_options(command, a->threads, a->quiet);
   command.footer(
       "Writes DIR/cases, labels.json, answers.json, blind.json, report.md and figures (PNG). Stopped or "
-      "killed, "
-      "the same\n"
+      "killed, the same\n"
       "command goes on.\n\n"
       "Example: gapscope blind run configs/07_blind.yaml -o reports/blind");
   command.action([a] {

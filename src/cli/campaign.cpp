@@ -149,11 +149,9 @@ void add_export(CommandLine& campaign) {
                    "with the wall times of each run, which differ from machine to machine");
   command.footer(
       "One row per run, in the order of the runs, whatever order they finished in; no wall times unless "
-      "asked "
-      "for.\n"
+      "asked for.\n"
       "Of each estimator (literal, model_free, reference): whether it answers, gap, interval [rad], "
-      "quantity, "
-      "method,\n"
+      "quantity, method,\n"
       "trust, what it was told of the drive, and its passes over the recording.\n\n"
       "Example: gapscope campaign export reports/sampling_resolution > runs.csv");
   command.action([folder, times] {
@@ -174,10 +172,10 @@ void add_merge(CommandLine& campaign) {
         throw ConfigError(merge.target, "is one of the folders to merge, expected another one to merge into");
     for (const char* end : {"", "-wal", "-shm", "-journal"})
       if (fs::exists(merge.target + "/results.sqlite" + end))
-        throw ConfigError(merge.target,
-                          fmt::format("has a store already (results.sqlite{}), expected a folder "
-                                      "without one to merge into",
-                                      end));
+        throw ConfigError(
+            merge.target,
+            fmt::format("has a store already (results.sqlite{}), expected a folder without one to merge into",
+                        end));
   };
   CommandLine command = campaign.add_command("merge", "One store from the shards of a campaign");
   command.add_option("DIR", a->folders, "folders of the shards").required();

@@ -109,7 +109,7 @@ void tell_together(const std::vector<Inspection>& seen) {
   if (seen.size() > 1)
     fmt::print(
         "\n{:<12}all {} recordings ask the drive the same (peak and frequency of u, travel)\n{:<12}-> record "
-        "one with another waveform or amplitude, to be held out: it tells more causes apart\n",
+        "one with another waveform or amplitude, to be held out: it separates more causes\n",
         "together", seen.size(), "");
 }
 
@@ -141,10 +141,10 @@ void check_all(const CheckArguments& a) {
   const std::vector<RecordingArguments> all = asked(a);
   print_warnings(preset_remarks(a.recording));
   if (all.size() > 1 && (a.json || !a.output.empty() || !a.picture.empty()))
-    throw ConfigError(fmt::format(
-        "gapscope: --json, --picture and --output are of one report, expected one file and one axis "
-        "beside them instead of {}",
-        all.size()));
+    throw ConfigError(
+        fmt::format("gapscope: --json, --picture and --output are of one report, expected one file and one "
+                    "axis beside them instead of {}",
+                    all.size()));
   bool spoilt = false;
   std::vector<Inspection> seen;
   for (const RecordingArguments& one : all) {
@@ -186,11 +186,11 @@ void add_check(CommandLine& app) {
       "  unit of x1     as declared: rad (m), not counts, degrees or turns\n"
       "  encoder        its step, its noise, the smallest gap that can be read\n"
       "  jumps          wrapped or lost counts, spikes\n"
-      "  fresh samples  x1 read anew for every row\n"
+      "  fresh samples  x1 read again for every row\n"
       "  travel, reversals, speed, standstill   what the motion offers\n"
       "  input, clipping, spectrum              what the input offers\n"
       "  sign, scale of u                       whether u can be what moves x1; what one body would weigh\n"
-      "  feedback       whether u answers x1 (what a loop filters away cannot be told from u and x1)\n"
+      "  feedback       whether u answers x1 (what a loop filters away cannot be seen in u and x1)\n"
       "  diagnosis      what `gapscope diagnose` will have to judge by\n"
       "JSON keys carry their units [s, Hz, rad, units of u].\n"
       "Exit status: 0 nothing spoils the estimates, 3 something does, else as for every command.\n\n"

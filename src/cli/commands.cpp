@@ -45,7 +45,7 @@ void add_config_arguments(CommandLine& command, ConfigArguments& arguments, cons
       .one_value_each();
   command
       .add_option("--model-from", arguments.model_from,
-                  "another configuration whose model: (and anchor:) stands in place of this one's, e.g. the "
+                  "another configuration whose model: (and anchor:) replaces this one's, e.g. the "
                   "fitted.yaml of a report; what this one estimates is estimated from there on")
       .value("FILE");
 }

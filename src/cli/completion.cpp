@@ -128,7 +128,7 @@ std::string completion(const Command& command, const std::string& shell) {
 
 void add_completion(CommandLine& app) {
   auto shell = std::make_shared<std::string>();
-  CommandLine command = app.add_command("completion", "What lets a shell complete its command line");
+  CommandLine command = app.add_command("completion", "Completion of the command line for a shell");
   command.add_option("SHELL", *shell, "bash or zsh").required().one_of({"bash", "zsh"});
   command.footer(
       "The script on standard output; an installed gapscope has both where the shells look for them.\n\n"

@@ -118,8 +118,8 @@ std::string validation_line(const RunResult& r) {
 /// A word in a command that is told, and what it stands for.
 struct Placeholder {
   std::string_view word;
-  const std::string& stands_for;  ///< empty: not known, the word stays
-  std::string options = "";       ///< that follow it, as a shell takes them
+  std::string stands_for;    ///< empty: not known, the word stays
+  std::string options = "";  ///< that follow it, as a shell takes them
 };
 
 bool is_end(char c) { return c == ' ' || c == '`'; }
@@ -156,25 +156,18 @@ std::string filled_in(const std::string& text, std::span<const Placeholder> all)
 /// @param folder  of the report
 void print_card(const Card& card, const ToldConfiguration& c, const std::string& folder) {
   for (const CardLine& l : card.lines()) {
-    if (!card.diagnosed && (&l.text == &card.cause || &l.text == &card.helps)) continue;
-    const bool further = !card.diagnosed && &l.text == &card.place;
-    const bool is_next = &l.text == &card.next;
-    const bool to_diagnose =
-        is_next && !c.to_begin.empty() && (card.asks("next.diagnose") || card.asks("next.diagnose.lacks"));
-    const std::string text =
-        to_diagnose
-            ? "Make a model as above: a diagnosis with it tells where the drive differs from it, and why."
-        : !further ? l.brief
-        : c.to_begin.empty()
-            ? "Where, cause and what helps: run `gapscope diagnose CONFIG`."
-            : "The place of the error, its cause and what helps take a model: `gapscope init " + c.to_begin +
-                  "` writes a first one; run `gapscope diagnose` with that.";
+    if (!card.diagnosed && (&l.text == &card.place || &l.text == &card.cause || &l.text == &card.helps))
+      continue;           // what is next leads there
     const bool goes_on =  // and names a folder of its own
-        is_next && (card.asks("next.go_on") || card.asks("next.read_gap"));
-    const Placeholder all[] = {{"DIR", folder},
-                               {"CONFIG", c.file, c.settings + (goes_on ? "" : c.model + c.folder)}};
-    line(further ? "diagnosis" : l.name, filled_in(text, all));
+        &l.text == &card.next && (card.asks("next.go_on") || card.asks("next.read_gap"));
+    const Placeholder all[] = {
+        {"DIR", folder},
+        {"CONFIG", c.to_begin.empty() ? c.file : "", c.settings + (goes_on ? "" : c.model + c.folder)}};
+    line(l.name, filled_in(l.brief, all));
   }
+  if (!card.diagnosed && !c.to_begin.empty())
+    line("CONFIG",
+         "has a model, which was not given here; `gapscope init " + c.to_begin + "` writes a first one.");
 }
 
 }  // namespace
@@ -209,7 +202,7 @@ void print_headline(const std::string& folder, const RunResult& r, const ToldCon
   if (r.model_free && r.model_free->lost_motion.read())
     line("lost motion", lost_motion_line(r.model_free->lost_motion, r.coordinates));
   if (r.literal) line("literal", model_free_line(*r.literal, r.coordinates));
-  if (r.reference) line("reference", reference_line(*r.reference, r.coordinates));
+  if (r.reference) line("fitted", reference_line(*r.reference, r.coordinates));
   if (r.reference && !r.model_free)
     print_parameters(*r.reference, r.input.value_or(InputFacts{}), r.coordinates);
   if (r.comparison && std::isfinite(r.comparison->difference))

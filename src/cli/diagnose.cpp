@@ -97,8 +97,7 @@ void add_diagnose(CommandLine& app) {
   command.add_option("-o,--output", arguments->folder, kReportFolderHelp).value("DIR");
   command
       .add_option("--axis", arguments->axis,
-                  "axis that stands for {axis} in recording: columns; the report is in "
-                  "DIR/<axis>")
+                  "axis that stands for {axis} in recording: columns; the report is in DIR/<axis>")
       .value("NAME");
   command.add_option("--exclude", arguments->excluded, "an effect that is no candidate; may be repeated")
       .value("EFFECT")
@@ -109,10 +108,9 @@ void add_diagnose(CommandLine& app) {
       .value("SIM.csv")
       .one_value_each();
   command
-      .add_option(
-          "--leave-one-out", arguments->left_out,
-          "recording, mass, arm, gain or voltage: all recordings, or all with one value, are held out in "
-          "turn; DIR then has the model fitted to all and leave_one_out.csv")
+      .add_option("--leave-one-out", arguments->left_out,
+                  "recording, mass, arm, gain or voltage: all recordings, or all with one value, are held "
+                  "out in turn; DIR then has the model fitted to all and leave_one_out.csv")
       .value("KEY");
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   add_work_options(command, arguments->threads, arguments->quiet);
@@ -130,24 +128,21 @@ void add_diagnose(CommandLine& app) {
       "What no effect explains is tried as any function of speed, position or input: a law of last resort\n"
       "takes DIR/compensation_<law>.csv, the table for the drive's feed-forward, and fitted_with_law.yaml.\n"
       "Where two explanations come close and the drive takes u (no goals), next_experiment.yaml\n"
-      "and .csv hold the input that tells them apart best, of those tried within next_experiment: {input: "
+      "and .csv hold the input that separates them best, of those tried within next_experiment: {input: "
       "...,\n"
       "travel: ..., lowest_frequency: ..., highest_frequency: ..., duration: ...}; the report says whether "
       "that\n"
       "is enough. Where none comes close to another, neither file is made.\n"
-      "diagnosis: {periods_per_turn: [4], periods: [2.5e-3], outside_catalogue: 0.5} tells it of pole pairs "
-      "or\n"
+      "diagnosis: {periods_per_turn: [4], periods: [2.5e-3], outside_catalogue: 0.5} states pole pairs or\n"
       "teeth, of a screw's pitch [rad; m with coordinates: translation], and how likely the catalogue lacks "
       "what\n"
-      "is missing; exclude: [load_unbalance] is what --exclude says. detectable: true tells the smallest "
-      "amount "
-      "of each\n"
-      "effect that would have been named on these recordings; of none and unknown it is always told.\n"
+      "is missing; exclude: [load_unbalance] is what --exclude says. detectable: true gives the smallest "
+      "amount of each\n"
+      "effect that would have been named on these recordings; after none and unknown it is always given.\n"
       "--simulated lays your simulator (MuJoCo, Isaac, Drake, Gazebo, C code) beside the drive: run it under "
       "the\n"
       "recorded u, from where the drive began, write t, u, x1 (columns and units as in the recording; u may "
-      "be "
-      "left\n"
+      "be left\n"
       "out, a finer step does no harm), and give one file for each file: of the configuration, then for each "
       "held_out.\n"
       "The same model is fitted to both; the report has a table of what is in the drive, in the simulator or "
@@ -158,7 +153,7 @@ void add_diagnose(CommandLine& app) {
       "found by\n"
       "then (exit status 130). A second one ends the command at once, and nothing is kept.\n"
       "The verdict is effect (the cause of the first addition is established; only likely where the torque\n"
-      "balance alone tells it, which the card then says), helps (something takes much\n"
+      "balance alone shows it, which the card then says), helps (something takes much\n"
       "of the error, whether it is the cause is open), none (the model is at the floor: that of the encoder "
       "or, where\n"
       "the drive repeats its motion far worse, that of its repeatability; its numbers may still be others\n"

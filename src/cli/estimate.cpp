@@ -78,10 +78,9 @@ CommandLine add(CommandLine& app, const char* name, const char* what, const std:
   add_config_arguments(command, arguments->config);
   command.add_option("-o,--output", arguments->folder, kReportFolderHelp).value("DIR");
   command
-      .add_option(
-          "--axis", arguments->axis,
-          "axis that stands for {axis} in recording: columns, or all: a report for each in DIR/<axis>, and a "
-          "table")
+      .add_option("--axis", arguments->axis,
+                  "axis that stands for {axis} in recording: columns, or all: a report for each in "
+                  "DIR/<axis>, and a table")
       .value("NAME");
   command.add_flag("--svg", arguments->figures.svg, kSvgHelp);
   command.add_flag("--quiet", arguments->quiet, "no progress");
@@ -149,8 +148,7 @@ std::string fit_details() {
 void add_run(CommandLine& app) {
   add(app, "run", "Both estimators, their comparison, and a report with figures",
       "Writes DIR/result.json, report.md and report.html, figures (PNG), traces/, resolved.yaml, timing.json "
-      "and "
-      "files.json,\n"
+      "and files.json,\n"
       "which lists them: only what it lists is replaced by the next report, any other folder is refused.\n"
       "On standard output gaps are in mrad (mm for coordinates: translation), in result.json in rad (m).\n"
       "What `gapscope check` says will spoil the estimates is a warning; where it doubts the unit of x1 no\n"
@@ -166,7 +164,7 @@ void add_detect(CommandLine& app) {
   CommandLine command = add(
       app, "detect", "The model-free detector alone: the gap from the motor encoder, without a model",
       "Writes the same files as run, with \"reference\": null. How it looks is detector: method:\n"
-      "  auto         impacts, and where they tell no gap the lost-motion loop (slow ramps, locked output)\n"
+      "  auto         impacts, and where they show no gap the lost-motion loop (slow ramps, locked output)\n"
       "  impact       impacts alone\n"
       "  lost_motion  the loop alone: x1 at zero torque after ramps to either side\n"
       "  literal      S1 to S6 of the paper as printed, with the bound L that is given: no interval\n"
@@ -174,9 +172,8 @@ void add_detect(CommandLine& app) {
       "L is detector: bound [rad/s^2]: auto, a number, or {from_model: {input_limit [unit of u, the paper's "
       "U_max],\n"
       "load_force_bound [N m, the paper's G]}}; with one of the latter auto means paper. With model: load: "
-      "locked no reason speaks of a load "
-      "that\n"
-      "could rest. The lost motion is told wherever there is a loop, whatever the verdict.\n\n"
+      "locked no reason speaks of a load that\n"
+      "could rest. The lost motion is given wherever there is a loop, whatever the verdict.\n\n"
       "--stream reads a CSV (t, u, x1) from standard input and writes lines of JSON (units in the keys):\n"
       "  settings first: the version, the columns as they are read and the SHA-256 of that text\n"
       "  learnt   once: bounds, floors and thresholds, from the first two periods and frozen from then on\n"
@@ -185,12 +182,11 @@ void add_detect(CommandLine& app) {
       "           gap, standard error; accepted, or the remark why not\n"
       "  summary  last, also on Ctrl-C and before a broken line is refused: verdict and gap of all passages\n"
       "           (of the last 8192), as in result.json\n"
-      "A stream is told no axis: rad, in its keys and reasons, is the unit of x1, m where x1 is in m. It "
-      "counts\n"
+      "A stream has no axis: rad, in its keys and reasons, is the unit of x1, m where x1 is in m. It counts\n"
       "half periods from turn to turn of the motion; detect on a whole recording counts from one passing of "
       "its\n"
       "middle to the next, which is one more where the recording begins at an end of the travel.\n"
-      "Time that is not uniform takes --resample RATE, as resample: does in a configuration.\n"
+      "Time that is not uniform needs --resample RATE, as resample: does in a configuration.\n"
       "Memory does not grow. Against a detector that sees all of it first, a stream cannot take back what "
       "the\n"
       "first two periods taught it (start it in steady motion; after another amplitude or frequency start "
@@ -204,8 +200,8 @@ void add_detect(CommandLine& app) {
 }
 
 void add_fit(CommandLine& app) {
-  add(app, "fit", "The model-based reference alone: parameters of the drive, fitted to u and x1",
-      fit_details(), {.model_free = false, .literal = false});
+  add(app, "fit", "The fit of a model alone: parameters of the drive, fitted to u and x1", fit_details(),
+      {.model_free = false, .literal = false});
 }
 
 }  // namespace gapscope::cli

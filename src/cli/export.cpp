@@ -72,7 +72,7 @@ void add_drive_export(CommandLine& app) {
       .value("DIR");
   Option into = command
                     .add_option("--into", arguments->into,
-                                "MJCF that has the joint already: the numbers to paste are told for it")
+                                "MJCF that has the joint already: the numbers to paste are printed for it")
                     .value("MODEL");
   Option joint =
       command.add_option("--joint", arguments->joint, "joint in it that is the drive").value("NAME");
@@ -87,7 +87,7 @@ void add_drive_export(CommandLine& app) {
       "and why; how far the target's x1 is from gapscope's simulator under the same input at several steps;\n"
       "the largest step that it stands; and what the format's own defaults would do. What a diagnosis in "
       "SOURCE\n"
-      "left unexplained is told there and in the head of the model.\n"
+      "left unexplained is stated there and in the head of the model.\n"
       "SOURCE with recording: needs every number of its model, and is judged under the recorded input; a\n"
       "fitted.yaml under that of its trace (after diagnose: of what was held out), for the first 10 s.\n"
       "DIR may be empty, new, or hold an earlier export that was not changed since.\n\n"

@@ -205,10 +205,9 @@ void add_init(CommandLine& app) {
                   "richer one (speed, travel, input, reversals) is better fitted: init says which it is")
       .value("FILE");
   command
-      .add_option(
-          "-o,--output", arguments->output,
-          "configuration to write; its name is the report's (default: the recording's name, here; the report "
-          "of --from is called after the joint)")
+      .add_option("-o,--output", arguments->output,
+                  "configuration to write; its name is the report's (default: the recording's name, here; "
+                  "the report of --from is called after the joint)")
       .value("CONFIG");
   command
       .add_option("--model", arguments->model,
@@ -230,29 +229,27 @@ void add_init(CommandLine& app) {
                    .within(1e-9, 1e6);
   mass.needs(arm);
   arm.needs(mass);
-  Option inertia =
-      command
-          .add_option("--inertia", arguments->inertia,
-                      "motor inertia; with --torque-constant, the rotor inertia from the data sheet "
-                      "(before the gear) [kg m^2; of a slide kg]")
-          .value("INERTIA")
-          .within(1e-12, 1e9);
+  Option inertia = command
+                       .add_option("--inertia", arguments->inertia,
+                                   "motor inertia; with --torque-constant, the rotor inertia from the data "
+                                   "sheet (before the gear) [kg m^2; of a slide kg]")
+                       .value("INERTIA")
+                       .within(1e-12, 1e9);
   for (Option* anchor : {&mass, &inertia}) anchor->excludes(from);
   inertia.excludes(mass);
-  Option constant =
-      command
-          .add_option("--torque-constant", arguments->torque_constant,
-                      "the sheet's, of the motor, before a gear [N m per unit of the input, for "
-                      "a current per A; of a slide N]")
-          .value("CONSTANT")
-          .within(1e-9, 1e9);
+  Option constant = command
+                        .add_option("--torque-constant", arguments->torque_constant,
+                                    "the sheet's, of the motor, before a gear [N m per unit of the input, "
+                                    "for a current per A; of a slide N]")
+                        .value("CONSTANT")
+                        .within(1e-9, 1e9);
   for (Option* other : {&from, &mass}) constant.excludes(*other);
   command.footer(
-      "Reads off the recordings what they tell: columns, a rate for the detector where time is not uniform,\n"
+      "Reads off the recordings what they show: columns, a rate for the detector where time is not uniform,\n"
       "the step of the encoder [rad], and whether the model needs a gap, a locked output or one body (the\n"
       "detector decides). Of one body inertia, damping and Coulomb friction are read, for the fit to begin\n"
       "with: diagnose then says what is missing beside them.\n"
-      "What it does not tell is marked GUESS (torque_constant [N m per unit of u]: 1, unless it is given or\n"
+      "What they do not show is marked GUESS (torque_constant [N m per unit of u]: 1, unless it is given or\n"
       "--input-unit is one of torque or force) or left to the fit.\n"
       "--torque-constant and --inertia together are the motor's sheet, and fixed; of one body its inertia "
       "is\n"
@@ -264,9 +261,8 @@ void add_init(CommandLine& app) {
       "off the recording or taken as position 0.\n"
       "A gap that the detector does not see (inconclusive) is a GUESS too.\n"
       "--preset dynamixel, feetech, odrive, moteus or twincat declares the columns and units that these "
-      "drives "
-      "write.\n"
-      "--from takes armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
+      "drives write.\n"
+      "--from reads armature, damping, frictionloss, gear and the body's inertia of a joint, of MJCF with "
       "its\n"
       "classes, geoms, gravity and the actuator's filter, range and constant bias; a gap where a fixed "
       "tendon\n"

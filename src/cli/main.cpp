@@ -50,7 +50,7 @@ int parse_and_run(int argc, char** argv) {
       "gapscope", "Backlash gap and sim-to-real gap of a drive with a single motor encoder",
       std::string("gapscope ") + version(),
       "Angles are in rad, torques in N m, times in s, unless a key or a message says otherwise.\n"
-      "gapscope COMMAND --help tells more.\n"
+      "gapscope COMMAND --help says more.\n"
       "Exit status: 0 done, whatever the answer; 1 the work failed; 2 the input or the command line is\n"
       "wrong; 3 check found what would spoil the estimates; 130 interrupted, what was complete is kept.\n\n"
       "Example: gapscope run configs/02_experiment.yaml",

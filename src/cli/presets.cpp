@@ -58,11 +58,12 @@ std::string column_of(const char* names, const std::vector<std::string>& there, 
                       const char* option) {
   const std::string found = found_of(names, there);
   if (!found.empty()) return found;
-  throw ConfigError(a.file,
-                    fmt::format("has no column {}, expected one of them for the preset {}, or its own name "
-                                "behind {}; it has {}",
-                                fmt::join(alternatives(names), ", "), a.preset, option,
-                                printable(fmt::format("{}", fmt::join(there, ", ")), 200)));
+  throw ConfigError(
+      a.file,
+      fmt::format(
+          "has no column {}, expected one of them for the preset {}, or its own name behind {}; it has {}",
+          fmt::join(alternatives(names), ", "), a.preset, option,
+          printable(fmt::format("{}", fmt::join(there, ", ")), 200)));
 }
 
 const DrivePreset* preset_of(const RecordingArguments& a) {
@@ -131,15 +132,13 @@ std::vector<std::string> preset_remarks(const RecordingArguments& a) {
   if (a.preset.empty()) return remarks;
   const DrivePreset& p = *preset_of(a);
   if (const std::string left = options_of_input(a, p); !has_its_input(a, p) && !left.empty())
-    remarks.push_back(
-        a.target.empty()
-            ? fmt::format(
-                  "the preset {} knows the unit of {}, not of {}: u is read as it stands. Where it is "
-                  "the same register, add {}",
-                  p.name, fmt::join(alternatives(p.input), ", "), shown(a.input), left)
-            : fmt::format("the preset {} says nothing of what a controller makes of {}: its supply is not "
-                          "read. Where the controller sets a duty, add {}",
-                          p.name, shown(a.target), left));
+    remarks.push_back(a.target.empty()
+                          ? fmt::format("the preset {} knows the unit of {}, not of {}: u is read as it is. "
+                                        "Where it is the same register, add {}",
+                                        p.name, fmt::join(alternatives(p.input), ", "), shown(a.input), left)
+                          : fmt::format("the preset {} says nothing of what a controller makes of {}: its "
+                                        "supply is not read. Where the controller sets a duty, add {}",
+                                        p.name, shown(a.target), left));
   if (has_its_input(a, p) && a.units.input.empty()) {
     const std::string input = a.input.empty() ? found_of(p.input, recorded_names(a.file)) : a.input;
     if (unit_of(input, p.input, p.input_unit) != p.input_unit)

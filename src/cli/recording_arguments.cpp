@@ -56,12 +56,12 @@ std::optional<DriveController> RecordingArguments::commanding() const {
   if (target.empty() && gain.empty()) return {};
   if (target.empty())
     throw ConfigError(
-        "gapscope: --controller-gain stands without --target, expected the column of the commanded position "
-        "beside it");
+        "gapscope: --controller-gain is given without --target, expected the column of the commanded "
+        "position beside it");
   if (gain.empty() && of_model) return of_model;
   if (gain.empty())
     throw ConfigError(
-        "gapscope: --target stands without --controller-gain, expected the gain of the servo's position "
+        "gapscope: --target is given without --controller-gain, expected the gain of the servo's position "
         "controller beside it, or --controller-gain estimate where nobody knows it");
   DriveController c = controller_with(set);
   c.gain = decimal(gain).value_or(1.0);  // one that is sought begins there
@@ -145,10 +145,10 @@ RegisterForm register_form(const std::string& text) {
   else if (const auto bits = number("", 2, 52))
     form.bits = static_cast<int>(*bits);
   else
-    throw ConfigError(fmt::format(
-        "gapscope: --input-register is {}, expected bits of two's complement (2 to 52), signBIT (1 to 51) or "
-        "offsetNUMBER",
-        shown(text)));
+    throw ConfigError(
+        fmt::format("gapscope: --input-register is {}, expected bits of two's complement (2 to 52), signBIT "
+                    "(1 to 51) or offsetNUMBER",
+                    shown(text)));
   return form;
 }
 
@@ -173,8 +173,7 @@ RecordingConfig RecordingArguments::configuration() const {
   if (units.position == "counts" && (bits == 0 || translation))
     throw ConfigError(
         "gapscope: --position-unit is counts, expected --bits of a rotary encoder beside it, or the size of "
-        "one "
-        "count as a number");
+        "one count as a number");
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.registers = registers;
@@ -328,10 +327,9 @@ void add_recording_arguments(CommandLine& command, RecordingArguments& a) {
       .value("DRIVE")
       .one_of(presets);
   command
-      .add_option(
-          "--axis", a.axis,
-          "axis that stands for {axis} in the names of columns, or all (default names: {axis}.position, "
-          "{axis}.effort)")
+      .add_option("--axis", a.axis,
+                  "axis that stands for {axis} in the names of columns, or all (default names: "
+                  "{axis}.position, {axis}.effort)")
       .value("NAME");
   command.add_option("--encoder-side", a.side, "body that the position is of: motor or load (default: motor)")
       .value("SIDE")
@@ -381,10 +379,9 @@ std::string require_file_name(const std::string& file, const std::vector<std::st
   if (!parent.empty() && !fs::is_directory(parent, problem))
     throw ConfigError(file, "cannot be written there, expected a folder that exists");
   if (fs::is_regular_file(there) && fs::file_size(file, problem) > 0 && !is_own(file))
-    throw ConfigError(
-        file,
-        "is there already, expected another name (-o FILE), or that it is deleted first: it is not "
-        "overwritten");
+    throw ConfigError(file,
+                      "is there already, expected another name (-o FILE), or that it is deleted first: it is "
+                      "not overwritten");
   return found;
 }
 

@@ -88,8 +88,7 @@ void add_report(CommandLine& app) {
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
       "Reads DIR/result.json, DIR/diagnosis.json [rad, s] and DIR/traces; writes report.md, report.html and "
-      "the figures "
-      "(PNG).\n\n"
+      "the figures (PNG).\n\n"
       "Example: gapscope report reports/02_experiment");
   command.action([arguments] {
     if (!std::filesystem::is_directory(arguments->folder))

@@ -58,8 +58,7 @@ std::string details() {
          "  excitation                see below\n"
          "  initial                   state at the first sample, optional\n"
          "  noise [rad]               rms, before quantisation (default 0)\n"
-         "  plant                     simulator (default), the one that the reference fits with, or "
-         "independent:\n"
+         "  plant                     simulator (default), the one that is fitted, or independent:\n"
          "                            code that shares nothing with the estimators; it has no effects here\n"
          "  model                     the true plant where it differs from model, optional\n\n" +
          excitation_help() + "\nInitial state (simulation: initial):\n" + field_help(initial, "    ") +

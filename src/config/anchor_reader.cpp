@@ -137,7 +137,7 @@ void read_anchor(const Section& root, Configuration& c) {
     given->fail_expecting("{mass: ..., arm: ...}, {inertia: ...} or {friction: ...}");
   for (const char* key : {"arm", "hangs_at", "gravity"})
     if (const auto alone = section.find(key); alone && !mass)
-      alone->fail("stands without a mass, expected mass: [kg] beside it");
+      alone->fail("is given without a mass, expected mass: [kg] beside it");
   if (mass) read_mass(section, *mass, c, anchor);
   if (inertia) {
     anchor.inertia = inertia->number(kInertia);

@@ -95,7 +95,7 @@ void place_encoder(Configuration& c) {
   if (locked || plant_locked)
     throw ConfigError(c.file, c.encoder.line,
                       fmt::format("encoder.side is {} and model.load locked, expected side: motor: what does "
-                                  "not move tells its encoder nothing",
+                                  "not move shows its encoder nothing",
                                   to_string(c.encoder.sides)));
   c.model.structure.encoder = c.encoder.side();
   if (c.simulation) c.simulation->plant.structure.encoder = c.encoder.side();

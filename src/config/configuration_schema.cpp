@@ -125,7 +125,7 @@ Json recording_schema() {
   column("gain", "of the controller then, times the gain of controller:");
   resample.add("rate", number_schema({1e-3, 1e7, "Hz"}, "that the recording is brought to"));
   resample.add("for",
-               words_schema({"all", "detector"}, "detector: fit and diagnose take the rows as they are"));
+               words_schema({"all", "detector"}, "detector: fit and diagnose read the rows as they are"));
   resample.required = {"rate"};
   recording.add("file",
                 recorded_files_schema("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
@@ -142,7 +142,7 @@ Json recording_schema() {
   recording.add("rate", number_schema(kRowRates, "of the rows, where the file has no time"));
   recording.add("unwrap",
                 described({{"enum", {"auto", true, false}}},
-                          "a position that begins anew after each turn is counted on; auto: where it stays "
+                          "a position that starts again after each turn is counted on; auto: where it stays "
                           "within a turn and steps by nearly a whole one"));
   recording.add("input_rows",
                 described({{"type", "integer"}, {"minimum", -kMostInputRows}, {"maximum", kMostInputRows}},
@@ -269,7 +269,7 @@ std::string configuration_schema() {
   MapSchema diagnosis = fields_schema(DiagnosisKnowledge{}), implant = fields_schema(ImplantConfig{});
   diagnosis.add("exclude", effect_names_schema("effects that are no candidates"));
   implant.add("effects", effect_names_schema("that may be drawn; default: all"));
-  root.add("diagnosis", diagnosis.schema("what the diagnosis is told beforehand"));
+  root.add("diagnosis", diagnosis.schema("what is known before the diagnosis"));
   root.add("tolerance", fields_schema(Tolerance{}).schema("what is good enough: the card judges it"));
   implant.properties["sizes"]["minItems"] = 1;
   implant.properties["sizes"]["items"]["exclusiveMinimum"] = 0;

@@ -265,7 +265,7 @@ void read_controller(const Section& root, Configuration& c) {
         "which makes the input of it");
   const ControllerModel model = read_laws(*controller);
   if (c.simulation) return read_simulated(*controller, model, c);
-  if (!target) controller->fail("stands without the target, expected recording: columns: {target: ...}");
+  if (!target) controller->fail("is given without the target, expected recording: columns: {target: ...}");
   if (model.estimates()) require_estimable(*controller, *c.recording);
   c.controller = model;
   c.recording->reading.controller = model.at_start();

@@ -150,7 +150,7 @@ std::vector<RecordedFile> read_simulated_files(const Value& value, const std::st
     files.push_back(read_file(item, folder));
     if (files.back().has_facts())
       item.fail(
-          "says more than the name of a simulator's answer, expected a file: what is known stands "
+          "says more than the name of a simulator's answer, expected a file: what is known is given "
           "beside the recording");
   }
   return files;

@@ -29,7 +29,7 @@ Vector3d gravity_in(const Mjcf& m) {
 
 std::string turns_above(const XMLElement& body) {
   return body_name(body) +
-         " above it turns; where that stands still in the recording, add to effects: - load_unbalance: "
+         " above it turns; where that is at rest in the recording, add to effects: - load_unbalance: "
          "{amplitude_nm: {estimate: true}, phase_rad: {estimate: true}}";
 }
 

@@ -93,7 +93,7 @@ Json drive_parameter_schema(const Range& range, const std::string& doc) {
   written.add("given_at", words_schema({"motor", "load"},
                                        "side of the gear of recording: gear_ratio that the "
                                        "numbers hold at; default: load, the axis of x1"));
-  written.add("guess", truth_schema("the value is one: what rests on it is told so"));
+  written.add("guess", truth_schema("the value is one: what rests on it is marked"));
   Json schema = written.schema(kFixedOrNot);
   add_rules_of_parameter(schema);
   return number_or(schema, range, doc);

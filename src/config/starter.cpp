@@ -116,7 +116,7 @@ void write_recording(YamlWriter& out, const std::string& folder, const Recording
   if (options.resample_rate)
     out.entry("resample",
               fmt::format("{{rate: {}{}}}", *options.resample_rate, resampled ? ", for: detector" : ""),
-              resampled ? "Hz; time is not uniform: fit and diagnose take it as it is" : "Hz");
+              resampled ? "Hz; time is not uniform: fit and diagnose use it as it is" : "Hz");
   out.close();
 }
 
@@ -124,7 +124,7 @@ void write_recording(YamlWriter& out, const std::string& folder, const Recording
 void write_encoder(YamlWriter& out, const EncoderConfig& known, RecordingFacts f, double gear,
                    Coordinates coordinates) {
   const char* const side = known.sides == EncoderSides::kLoad ? ", side: load" : "";
-  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}{}}}", *known.bits, side), "as told");
+  if (known.bits) return out.entry("encoder", fmt::format("{{bits: {}{}}}", *known.bits, side), "as given");
   f.quantum *= std::abs(gear);
   if (std::isnan(f.quantum) && *side != '\0') return out.entry("encoder", "{side: load}", "no step is seen");
   if (std::isnan(f.quantum))
@@ -214,7 +214,7 @@ void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begi
   if (!choice.seen)
     out.comment(std::string(load ? "no gap in this drive: gapscope init --model one_body"
                                  : "a gap in this drive: gapscope init --model gap") +
-                "; an output that stands still: --model locked");
+                "; for an output that is held: --model locked");
   if (load) out.entry("contact", "compliant");
   if (load) out.entry("load", free ? "free" : "locked");
   out.open("parameters");
@@ -231,10 +231,10 @@ void write_model(YamlWriter& out, const StarterChoice& choice, const Begin& begi
 std::string head(bool guesses, Coordinates coordinates) {
   YamlWriter out(coordinates);
   out.comment(guesses
-                  ? "A first configuration, read off the recording. What is marked GUESS it does not tell: "
+                  ? "A first configuration, read off the recording. What is marked GUESS it does not show: "
                     "put in what the sheet says."
                   : "A first configuration, read off the recording.");
-  out.comment("A bare number is fixed; {estimate: true} is fitted, from a value if one stands there.");
+  out.comment("A bare number is fixed; {estimate: true} is fitted, from a value if one is given.");
   return out.text();
 }
 

@@ -14,7 +14,7 @@ StarterChoice as_seen(std::span<const MotorTrace> traces, Coordinates coordinate
   if (g.method == GapMethod::kLostMotion)
     return {StarterModel::kLocked,
             "GUESS: locked output; x1 follows u in a loop, as that of a held output does and that of a load "
-            "whose friction takes nearly the whole torque",
+            "whose friction uses up nearly the whole torque",
             false};
   if (g.verdict == GapVerdict::kNone)
     return {StarterModel::kOneBody,
@@ -37,10 +37,9 @@ StarterChoice chosen_structure(StarterModel model, std::span<const MotorTrace> t
   switch (model) {
     case StarterModel::kAsSeen:
       if (encoder == EncoderSide::kLoad)
-        return {
-            StarterModel::kOneBody,
-            "GUESS: one body; whether there is a gap an encoder on the load does not tell without a model",
-            false};
+        return {StarterModel::kOneBody,
+                "GUESS: one body; whether there is a gap an encoder on the load cannot show without a model",
+                false};
       return as_seen(traces, coordinates);
     case StarterModel::kGap:
       return {model, "gap and free load, as asked for"};

@@ -15,7 +15,7 @@ namespace {
 constexpr double kHardLimit = 50.0;
 
 constexpr const char* kTakenByTheGain =
-    "not known apart from the controller's gain, which takes its size: only their product acts";
+    "not known apart from the controller's gain, which scales with it: only their product acts";
 
 /// A number of the motor's sheet, which is that of its own shaft.
 /// @param begun  it is where the fit begins, and no more
@@ -55,7 +55,7 @@ void write_estimated(YamlWriter& out, const char* key, double value, const std::
 }
 
 void take_constant(Begin& begin, double constant, double ratio) {
-  const std::string told = fmt::format("gapscope: torque_constant {:g} is told ", constant);
+  const std::string told = fmt::format("gapscope: torque_constant {:g} is given ", constant);
   if (begin.input_is_torque)
     throw ConfigError(told + "of an input that is a torque or force already, expected none: it is 1 there");
   if (begin.gain_sought)
@@ -75,7 +75,7 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     out.entry("torque_constant", "1", std::string("u is in ") + coordinates.torque_unit() + " already");
   else if (begin.motor_constant > 0.0)
     out.entry("torque_constant", of_the_sheet(begin.motor_constant, begin.geared),
-              coordinates.with_units("[N m] per unit of u, as told"));
+              coordinates.with_units("[N m] per unit of u, as given"));
   else if (begin.numbers.torque_constant > 0.0)
     out.entry("torque_constant", yaml_number(begin.numbers.torque_constant),
               coordinates.with_units("[N m] per unit of u; ") + begin.from +
@@ -90,7 +90,7 @@ void write_motor(YamlWriter& out, const Begin& begin, Coordinates coordinates) {
     out.entry(
         "motor_inertia", of_the_sheet(begin.motor_inertia, begin.geared, begin.one_body),
         coordinates.unit("kg m^2") +
-            (begin.one_body ? "; begun as told, and fitted: it is that of all that moves" : ", as told"));
+            (begin.one_body ? "; begun as given, and fitted: it is that of all that moves" : ", as given"));
   else
     write_estimated(out, "motor_inertia", begin.numbers.inertia,
                     coordinates.unit("kg m^2") + scale + "; better the sheet's" +
@@ -124,7 +124,7 @@ std::string anchor_comment(const AnchorConfig& anchor, double hangs_at) {
     return known + "; hangs_at [rad]: where the arm hangs down, read off the recording, the fit finds it";
   if (std::isfinite(hangs_at)) return known + "; the arm hangs down at about 0, as the recording shows";
   return known +
-         "; that the arm hangs down at 0 (within 0.5 rad) the recording does not tell: else add hangs_at: "
+         "; that the arm hangs down at 0 (within 0.5 rad) the recording does not show: else add hangs_at: "
          "its position there [rad], e.g. 3.14";
 }
 
@@ -145,11 +145,12 @@ std::string anchor_text(const AnchorConfig& anchor, double hangs_at) {
 void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates) {
   if (gain_sought)
     out.comment(
-        "GUESS: without a number with a unit of torque the fit tells ratios only. Delete the line of "
+        "GUESS: without a number with a unit of torque the fit gives ratios only. Delete the line of "
         "motor_inertia, and say what you know (or gapscope init --mass 0.49 --arm 0.1, or --inertia):");
   else
     out.comment(
-        "No sheet tells torque_constant? Delete its line and that of motor_inertia, and say what you know "
+        "No data sheet gives torque_constant? Delete its line and that of motor_inertia, and say what you "
+        "know "
         "(the "
         "fit then sets aside what it cannot start from; or gapscope init --mass 0.49 --arm 0.1, or "
         "--inertia):");
@@ -211,7 +212,7 @@ void fit_to_structure(Begin& begin, StarterModel structure) {
   begin.asymmetry = n.friction > 0.0 && n.constant_torque != 0.0 ? -n.constant_torque / n.friction : 0.0;
   if (std::abs(begin.asymmetry) <= kMostAsymmetric && begin.asymmetry != 0.0) return;
   begin.asymmetry = 0.0;
-  refuse(n.constant_torque, "which is more than the friction of the motor's joint takes up");
+  refuse(n.constant_torque, "which is more than the friction of the motor's joint holds");
 }
 
 void doubt_the_control(Begin& begin, Coordinates coordinates) {

@@ -26,7 +26,7 @@ void DeclaredUnits::fields(FieldVisitor& v) {
   v.field({"position", "", "unit of the position, or counts"}, position);
   v.field({"load_position", "", "unit of the load position"}, load_position);
   v.field({"voltage", "", "unit of the supply's voltage"}, voltage);
-  v.field({"speed", "", "unit of the speed that stands in place of the position"}, speed);
+  v.field({"speed", "", "unit of the speed that is recorded in place of the position"}, speed);
 }
 
 void GearRatios::fields(FieldVisitor& v) {
@@ -154,7 +154,7 @@ std::string columns_text(const RecordingColumns& c) {
 void write_rows(YamlWriter& out, const ReadOptions& reading) {
   if (reading.columns.rate > 0.0)
     out.entry("rate", yaml_number(reading.columns.rate), "Hz; the file has no time");
-  if (reading.unwrap == Unwrap::kAlways) out.entry("unwrap", "true", "x1 begins anew after each turn");
+  if (reading.unwrap == Unwrap::kAlways) out.entry("unwrap", "true", "x1 starts again after each turn");
   if (reading.unwrap == Unwrap::kNever) out.entry("unwrap", "false");
   if (reading.input_rows != 0) out.entry("input_rows", std::to_string(reading.input_rows), "u is moved by");
 }

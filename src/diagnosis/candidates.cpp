@@ -48,7 +48,7 @@ FittedModel searched_around_effects(const Study& study, const FittedModel& fitte
   same.searched = true;
   const FittedModel slow = refined(study, fitted, hz);
   if (!(slow.mean_cost > ratio * ratio) || finish_requested()) return same;
-  study.options.progress("looking for the gap anew, with what was added");
+  study.options.progress("looking for the gap again, with what was added");
   ReferenceModel held = study.sheet;
   held.effects = with_added_held(fitted.model.effects, study.sheet);
   FitOptions whole = study.options.fit;

@@ -169,7 +169,7 @@ DetectableEffect Contestants::told(std::size_t i) const {
         fmt::format("the model has no {} that it would change", readable(contained_effect(entry)->name)));
   if (probes_[i].changes.empty()) return not_detectable(entry, "", "with it the model's motion diverges");
   if (probes_[i].absorbed > torque_view::TorqueViewOptions{}.most_absorbed)
-    return not_detectable(entry, "model", "the model's own numbers take it up");
+    return not_detectable(entry, "model", "the model's own numbers absorb it");
   Verdict last;
   double size = least(effect, in_proportion(probes_[i]), last);
   if (std::isfinite(size)) {
@@ -187,7 +187,8 @@ DetectableEffect Contestants::told(std::size_t i) const {
 DetectableEffect coarser_count(const Study& study, const EffectEntry& entry) {
   double quantum = 0.0;
   for (const MotorTrace& t : study.held_out.traces) quantum = std::max(quantum, t.quantum);
-  if (!(quantum > 0.0)) return not_detectable(entry, "", "the sheet tells no quantum to compare with");
+  if (!(quantum > 0.0))
+    return not_detectable(entry, "", "the encoder's quantum is not known to compare with");
   return detectable_from(entry, {kTelling.coarser * quantum}, 0, kNaN);
 }
 

@@ -30,7 +30,8 @@ DetectableEffect told(const EffectEntry& entry, const view::LeastNamed& least, c
   if (least.exists())
     return detectable_from(entry, least.law->values(least.theta, least.shape, drive), size_of(least, drive),
                            least.torque);
-  if (least.said_by_model) return not_detectable(entry, "model", "the model takes it up, whatever its size");
+  if (least.said_by_model)
+    return not_detectable(entry, "model", "the model's numbers absorb it, whatever its size");
   if (least.hidden_by == nullptr)
     return not_detectable(
         entry, "",

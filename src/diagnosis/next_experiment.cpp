@@ -157,7 +157,7 @@ NextExperiment next_experiment(std::span<const Rival> rivals, const MotorTrace& 
   next.rate = 1.0 / like.dt, next.duration = limits.duration;
   next.tried.resize(library.size());
   Counted counted(progress, library.size() + std::min(kConfirmed, library.size()));
-  const auto tell = [&] { counted.begin("looking for the experiment that would tell"); };
+  const auto tell = [&] { counted.begin("looking for the experiment that would decide"); };
   parallel_for(library.size(), threads, [&](std::size_t i) {
     tell();
     if (excitation_problem(library[i], next.rate, next.duration).empty())

@@ -17,7 +17,7 @@ void DiagnosisKnowledge::fields(FieldVisitor& v) {
   v.field({"periods", "rad", "the same as a length, such as a screw's pitch", 1e-9, 1e4}, periods);
   v.field({"outside_catalogue", "", "how likely the catalogue lacks what is missing", 0.01, 0.99},
           outside_catalogue);
-  v.field({"detectable", "", "tell the smallest amount of each effect that would have been named"},
+  v.field({"detectable", "", "find the smallest amount of each effect that would have been named"},
           detectable);
 }
 

@@ -177,11 +177,9 @@ std::string header_text(const ExportSource& s, const gsd_numbers& n) {
       "\nstatic const gsd_numbers gsd_of_drive = {{\n    {}}};\n\n"
       "/* At rest or in motion, as the recording began. */\n"
       "static inline void gsd_start(gsd_state *s) {{\n  gsd_start_at(&gsd_of_drive, s, {:.17g}, {:.17g}, "
-      "{:.17g}, "
-      "{:.17g});\n}}\n\n"
+      "{:.17g}, {:.17g});\n}}\n\n"
       "static inline double gsd_step(gsd_state *s, double u) {{ return gsd_advance_by_step(&gsd_of_drive, s, "
-      "u); "
-      "}}\n\n#endif\n",
+      "u); }}\n\n#endif\n",
       initialiser(n), s.initial.x1, s.initial.w1, s.initial.x2, s.initial.w2);
   return replaced(replaced(text, "gsd_", s.stem + "_"), "GSD_", upper(s.stem) + "_");
 }

@@ -14,7 +14,7 @@ namespace {
 using internal::exports::ExportSource;
 
 constexpr ExportFormatSpec kFormats[] = {
-    {ExportFormat::kMjcf, "mjcf", "MuJoCo: a model that stands alone and a fragment to include"},
+    {ExportFormat::kMjcf, "mjcf", "MuJoCo: a complete model and a fragment to include"},
     {ExportFormat::kC, "c",
      "one C99 header without dependencies: the same motion, for a controller or a callback"},
     {ExportFormat::kSdf, "sdf", "Gazebo: one joint with inertia, damping and friction"},

@@ -62,10 +62,10 @@ void require_known(const Configuration& c) {
   for (int i = 0; i < kDriveParameterCount; ++i)
     if (has_parameter(c.model.structure, i) &&
         std::isnan(c.model.parameters[static_cast<std::size_t>(i)].value))
-      throw ConfigError(
-          c.file, fmt::format("{} of the model is not known, expected its number, or the report folder of "
-                              "a fit or diagnosis in place of the configuration",
-                              kDriveParameters[i].key));
+      throw ConfigError(c.file,
+                        fmt::format("{} of the model is not known, expected its number, or the report folder "
+                                    "of a fit or diagnosis in place of the configuration",
+                                    kDriveParameters[i].key));
 }
 
 ExportSource recorded_source(const Configuration& c) {

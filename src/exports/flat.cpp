@@ -25,9 +25,8 @@ std::string urdf_text(const ExportSource& s, const FlatJoint& j) {
                                                  : " lower=\"-1000\" upper=\"1000\"";
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<!-- {0} by gapscope: inertia, damping and friction; certificate.md names "
-      "what is "
-      "lost. -->\n<robot name=\"{0}\">\n  <link name=\"{0}_base\"/>\n  <link name=\"{0}_output\">\n    "
-      "<inertial>\n"
+      "what is lost. -->\n<robot name=\"{0}\">\n  <link name=\"{0}_base\"/>\n  <link name=\"{0}_output\">\n  "
+      "  <inertial>\n"
       "      <origin xyz=\"{1:.12g} 0 {2:.12g}\"/>\n      <mass value=\"{3:.12g}\"/>\n      <inertia "
       "ixx=\"{4:.12g}\" ixy=\"0\" "
       "ixz=\"0\" "
@@ -35,10 +34,8 @@ std::string urdf_text(const ExportSource& s, const FlatJoint& j) {
       "name=\"{0}_joint\" "
       "type=\"{5}\">\n"
       "    <parent link=\"{0}_base\"/>\n    <child link=\"{0}_output\"/>\n    <axis xyz=\"{6}\"/>\n    "
-      "<limit "
-      "effort=\"{7:.12g}\" velocity=\"1000\"{8}/>\n    <dynamics damping=\"{9:.12g}\" "
-      "friction=\"{10:.12g}\"/>\n  "
-      "</joint>\n</robot>\n",
+      "<limit effort=\"{7:.12g}\" velocity=\"1000\"{8}/>\n    <dynamics damping=\"{9:.12g}\" "
+      "friction=\"{10:.12g}\"/>\n  </joint>\n</robot>\n",
       s.stem, m.x, m.z, m.mass, m.own, type, turns ? "0 1 0" : "1 0 0", j.effort, range, j.damping,
       j.friction);
 }
@@ -50,14 +47,12 @@ std::string sdf_text(const ExportSource& s, const FlatJoint& j) {
       j.limited ? fmt::format("<limit><lower>{}</lower><upper>{}</upper></limit>", j.low, j.high) : "";
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<!-- {0} by gapscope: inertia, damping and friction; certificate.md names "
-      "what is "
-      "lost. -->\n<sdf version=\"1.9\">\n  <model name=\"{0}\">\n    <link name=\"{0}_base\"/>\n    <joint "
-      "name=\"{0}_fixed\" type=\"fixed\"><parent>world</parent><child>{0}_base</child></joint>\n    <link "
-      "name=\"{0}_output\">\n      <inertial>\n        <pose>{1:.12g} 0 {2:.12g} 0 0 0</pose>\n        "
+      "what is lost. -->\n<sdf version=\"1.9\">\n  <model name=\"{0}\">\n    <link name=\"{0}_base\"/>\n    "
+      "<joint name=\"{0}_fixed\" type=\"fixed\"><parent>world</parent><child>{0}_base</child></joint>\n    "
+      "<link name=\"{0}_output\">\n      <inertial>\n        <pose>{1:.12g} 0 {2:.12g} 0 0 0</pose>\n        "
       "<mass>{3:.12g}</mass>\n"
       "        <inertia><ixx>{4:.12g}</ixx><iyy>{4:.12g}</iyy><izz>{4:.12g}</izz></inertia>\n      "
-      "</inertial>\n    "
-      "</link>\n"
+      "</inertial>\n    </link>\n"
       "    <joint name=\"{0}_joint\" type=\"{5}\">\n      <parent>{0}_base</parent>\n      "
       "<child>{0}_output</child>\n"
       "      <axis>\n        <xyz>{6}</xyz>\n        {7}\n        "
@@ -73,8 +68,7 @@ std::string isaac_text(const ExportSource& s, const FlatJoint& j) {
       "# The link behind the joint has {1:.12g} kg m^2 beside what else hangs there (kg on a slide).\n"
       "from isaaclab.actuators import ImplicitActuatorCfg\n\n{2} = ImplicitActuatorCfg(\n"
       "    joint_names_expr=[\"{0}_joint\"],\n    stiffness=0.0,  # effort targets; gains of a controller of "
-      "yours go "
-      "here\n    damping=0.0,\n    armature={3:.12g},\n    friction={4:.12g},  # at rest\n    "
+      "yours go here\n    damping=0.0,\n    armature={3:.12g},\n    friction={4:.12g},  # at rest\n    "
       "dynamic_friction={5:.12g},\n"
       "    viscous_friction={6:.12g},\n)\n",
       s.stem, j.link, s.stem + "_cfg", j.armature, j.friction + j.break_away, j.friction, j.damping);
@@ -85,8 +79,7 @@ std::string bam_text(const ExportSource& s, const FlatJoint& j) {
   const bool stribeck = j.break_away != 0.0, loaded = j.load_share > 0.0;
   std::string text = fmt::format(
       "{{\n  \"model\": \"{}\",\n  \"actuator\": \"{}\",\n  \"armature\": {:.12g},\n  \"friction_base\": "
-      "{:.12g},\n  "
-      "\"friction_viscous\": {:.12g}",
+      "{:.12g},\n  \"friction_viscous\": {:.12g}",
       loaded ? (stribeck ? "m4" : "m3") : (stribeck ? "m2" : "m1"), s.stem, j.armature, j.friction,
       j.damping);
   if (stribeck)
@@ -126,8 +119,8 @@ DriveExport export_bam(const ExportSource& s) {
   DriveExport out = flat_export(s, "bam", s.stem + "_bam.json", carriage_of("bam"), false, bam_text);
   out.certificate.warnings.push_back(
       "kt and R are not in the file: a recording of u and x1 has only their quotient (torque_constant, with "
-      "u in volts) "
-      "and, in motor_damping, the back-EMF. Take them from the data sheet, and kt²/R off friction_viscous.");
+      "u in volts) and, in motor_damping, the back-EMF. Take them from the data sheet, and kt²/R off "
+      "friction_viscous.");
   return out;
 }
 

@@ -162,10 +162,8 @@ void warn_of_left_out(const ExportSource& source, Certificate& c) {
     if (part.part == "input_delay" && has_lag(c.format))
       lines +=
           " Where the diagnosis says of the delay that it may as well be actuator lag, which this format "
-          "has: "
-          "`gapscope diagnose` with `--exclude input_delay --exclude measurement_lag` adds that, for an "
-          "export "
-          "of its own.";
+          "has: `gapscope diagnose` with `--exclude input_delay --exclude measurement_lag` adds that, for an "
+          "export of its own.";
   }
   if (names.empty()) return;
   c.warnings.push_back(fmt::format(

@@ -109,8 +109,7 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
   if (d.has_load && d.locked)
     text +=
         "     The tendon is the gap to an output that stands still; solreflimit belongs to this inertia: "
-        "more "
-        "asks\n     for -k/m1.\n";
+        "more asks\n     for -k/m1.\n";
   else if (d.has_load)
     text +=
         "     The tendon is the gap; solreflimit belongs to these two inertias: more inertia on the load's "
@@ -128,7 +127,7 @@ std::string heading(const ExportSource& s, const MujocoDrive& d, const std::stri
 }
 
 std::string alone(const ExportSource& s, const MujocoDrive& d, const ChosenStep& chosen) {
-  return heading(s, d, "a model that stands alone", chosen) +
+  return heading(s, d, "a complete model", chosen) +
          fmt::format(
              "<mujoco model=\"{}\">\n  <option timestep=\"{}\" integrator=\"RK4\" gravity=\"0 0 -{}\" "
              "tolerance=\"1e-15\" iterations=\"100\"/>\n",
@@ -184,9 +183,8 @@ void judge_defaults(const MujocoDrive& d, const TargetErrors& errors, Coordinate
   const double held = rms(false);
   if (!(c.default_error > kWorthSaying * held)) return;
   c.warnings.push_back(fmt::format(
-      "frictionloss with MuJoCo's default solreffriction and solimpfriction creeps where the drive holds: "
-      "{} instead of {} rms at {} ms, and no smaller step helps. Keep both attributes when you "
-      "copy the joint.",
+      "frictionloss with MuJoCo's default solreffriction and solimpfriction creeps where the drive holds: {} "
+      "instead of {} rms at {} ms, and no smaller step helps. Keep both attributes when you copy the joint.",
       coordinates.thousandths(c.default_error), coordinates.thousandths(held), 1e3 * kCertifiedStep));
 }
 
@@ -218,13 +216,15 @@ ChosenStep chosen_step(const std::vector<StepLimits>& limits) {
   if (l->within_encoder >= kCertifiedStep) return {l->within_encoder, ""};
   if (l->largest >= kCertifiedStep) return {};
   if (std::isnan(l->largest))
-    return {kFinestStep, fmt::format("timestep is {} ms, the finest that was tried, which RK4 does not stand",
-                                     1e3 * kFinestStep)};
+    return {kFinestStep,
+            fmt::format("timestep is {} ms, the finest that was tried, at which RK4 is not stable",
+                        1e3 * kFinestStep)};
   const double step = rounded_down(l->largest);
-  return {step,
-          fmt::format("timestep is {:.4g} ms: the largest step that it stands by RK4 is {:.4g} ms, in a "
-                      "model of yours as well",
-                      1e3 * step, 1e3 * l->largest)};
+  return {
+      step,
+      fmt::format(
+          "timestep is {:.4g} ms: the largest stable step of RK4 is {:.4g} ms, in a model of yours as well",
+          1e3 * step, 1e3 * l->largest)};
 }
 
 void judge(const ExportSource& s, const MujocoDrive& d, Certificate& c) {
@@ -242,10 +242,10 @@ void judge(const ExportSource& s, const MujocoDrive& d, Certificate& c) {
   for (const Integrator& integrator : kIntegrators)
     c.limits.push_back(errors.scan(integrator.name, motion_by(integrator.kind), c.errors));
   if (!errors.steps_fall_on_rows())
-    c.warnings.push_back(fmt::format(
-        "no step of the table divides the {:.6g} ms between two rows of the input, or is a whole multiple of "
-        "them: a part of each error is an input that comes late by up to a step",
-        1e3 * s.dt));
+    c.warnings.push_back(
+        fmt::format("no step of the table divides the {:.6g} ms between two rows of the input, or is a whole "
+                    "multiple of them: a part of each error is an input that comes late by up to a step",
+                    1e3 * s.dt));
   judge_parts(c.errors, c);
   judge_defaults(d, errors, s.coordinates, c);
 }

@@ -110,21 +110,19 @@ std::string turned_words(const JointNumbers& own, const OwnBody& body) {
   if (body.has.size > 0.0 && body.found.size > 0.0)
     return fmt::format(
         "turn the centre of what hangs on {} by {:.8g} rad about its axis, and the mass, or its distance "
-        "from "
-        "the axis, times {:.8g} (what inertia that adds about the axis: off the armature)",
+        "from the axis, times {:.8g} (what inertia that adds about the axis: off the armature)",
         own.joint, std::remainder(body.found.phase - body.has.phase, 2.0 * kPi),
         body.found.size / body.has.size);
   return fmt::format(
       "no centre of the body of {} in {} has that: its axis is upright, gravity is off, or the mass of the "
-      "body "
-      "itself is not told there",
+      "body itself is not given there",
       own.joint, own.model);
 }
 
 std::string own_gravity(const ExportSource& s, const MujocoDrive& d, const OwnBody& body) {
   if (!s.own)
     return d.unbalance > 0.0 ? "; gravity: " + gravity_words(found_gravity(d)) +
-                                   ": export --into MODEL --joint NAME tells where the body's centre belongs"
+                                   ": export --into MODEL --joint NAME says where the body's centre belongs"
                              : "";
   if (!body.other) return "";
   return fmt::format("; gravity: {} instead of {}: {}", gravity_words(body.found), gravity_words(body.has),
@@ -202,12 +200,12 @@ std::string inertia_words(const ExportSource& s, double all, const Armature& arm
   if (!armature.own) return "; " + take_off + " (export --into MODEL --joint NAME does it)";
   const OwnSide& own = *armature.own;
   if (own.joint.empty()) return "; " + s.own->model + " has one joint, which is taken for the load's";
-  if (!std::isfinite(own.body)) return "; " + take_off + ", which " + s.own->model + " does not tell";
+  if (!std::isfinite(own.body)) return "; " + take_off + ", which " + s.own->model + " does not say";
   std::string of = fmt::format("the {:.8g} about the axis that the body of {} has in {}", own.body, own.joint,
                                s.own->model);
   if (armature.added != 0.0)
-    of += fmt::format(" and the {:.8g} that it {} with its mass moved as told below",
-                      std::abs(armature.added), armature.added > 0.0 ? "gains" : "loses");
+    of += fmt::format(" and the {:.8g} that it {} with its mass moved as below", std::abs(armature.added),
+                      armature.added > 0.0 ? "gains" : "loses");
   if (armature.value < 0.0)
     return fmt::format("; {} is more than all of the inertia found ({:.8g}): take {:.8g} off the body's own",
                        of, all, -armature.value);
@@ -280,9 +278,8 @@ std::string own_file(const ExportSource& s, const MujocoDrive& d) {
     text += "; tendon of the gap" + std::string(d.locked ? "" : ", motor - load") + ": " + limit_words(d);
   if (is_two(d) && !s.own)
     text +=
-        "; a model of one joint has the load's: export --into MODEL --joint NAME tells the body, the joint "
-        "and "
-        "the tendon that the motor needs beside it";
+        "; a model of one joint has the load's: export --into MODEL --joint NAME gives the body, the joint "
+        "and the tendon that the motor needs beside it";
   return text + inertias + own_gravity(s, d, body) + constant_words(s, d);
 }
 

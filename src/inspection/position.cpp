@@ -152,7 +152,7 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
             "declare it, recording: units: {position: ...}"};
   return {"encoder", Severity::kFine,
           fmt::format(
-              "x1 steps by {}{}, noise {:.2g} steps; no gap below {:.0f} steps, {}, is told, and few below "
+              "x1 steps by {}{}, noise {:.2g} steps; no gap below {:.0f} steps, {}, is found, and few below "
               "{:.0f}, {}",
               m.length(q), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
               noise / q, signals::kFewestToldQuanta, m.length(signals::kFewestToldQuanta * q),
@@ -184,9 +184,9 @@ Finding check_hold(const Material& m, RecordingFacts&) {
     return {
         kRule, Severity::kNote,
         m.recording.quantum > 0.0
-            ? "whether x1 is read anew for every row cannot be told: from row to row its speed changes by "
+            ? "whether x1 is read again for every row cannot be seen: from row to row its speed changes by "
               "less than its counts show"
-            : "whether x1 is read anew for every row cannot be told: it is in no whole counts",
+            : "whether x1 is read again for every row cannot be seen: it is in no whole counts",
         "record the raw counts, at the rate at which they are read, in a faster or longer motion"};
   const double rate = 1.0 / (recording::mean_step(m.rows) * rows.every);
   const bool held = rows.filling == signals::Filling::kHeld;

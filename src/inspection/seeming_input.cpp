@@ -51,7 +51,7 @@ std::optional<Finding> seeming_input(const Material& m, const std::string& found
           fmt::format(": never of the other sign while x1 goes to and fro, and with its sign turned where "
                       "it touches 0 a body leaves {} times less of it: a magnitude",
                       figure(gain, 2)),
-      "record it with its sign (of a servo the goal and --controller-gain estimate tell as much: --target "
+      "record it with its sign (of a servo the goal and --controller-gain estimate show as much: --target "
       "in place of --input)"};
 }
 

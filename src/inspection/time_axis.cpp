@@ -34,7 +34,7 @@ Steps steps_of(const recording::RecordedRows& rows) {
 
 std::string resample_advice(const RecordingFacts& facts) {
   return fmt::format(
-      "fit and diagnose take each step with its own length; the detector (run, detect) needs recording: "
+      "fit and diagnose use each step with its own length; the detector (run, detect) needs recording: "
       "resample: {{rate: {:.4g}, for: detector}}, times within a step stay unsure there",
       facts.rate);
 }

@@ -123,7 +123,7 @@ std::optional<signals::OneBody> with_gravity(const Material& m, const MotorTrace
 
 Finding check_sign(const Material& m, RecordingFacts& facts) {
   if (!m.moves() || facts.input_peak == 0.0)
-    return {"sign", Severity::kNote, "cannot be told without motion and input", "see travel and input"};
+    return {"sign", Severity::kNote, "cannot be seen without motion and input", "see travel and input"};
   const double cosine = facts.work_cosine = work_cosine(m);
   const std::string found = fmt::format("u works on x1 with a cosine of {:.2f}", cosine);
   if (cosine >= 0.0) return {"sign", Severity::kFine, found + ": it drives the motion", ""};
@@ -142,7 +142,7 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
 
 Finding check_scale(const Material& m, RecordingFacts& facts) {
   const MotorTrace trace = m.recording.motor_trace();
-  if (!m.moves()) return {"scale of u", Severity::kNote, "cannot be told without motion", "see travel"};
+  if (!m.moves()) return {"scale of u", Severity::kNote, "cannot be seen without motion", "see travel"};
   if (signals::torque_cycles(trace).following > kFollows)
     return {"scale of u", Severity::kFine,
             "x1 goes with u, as against a locked output: it says nothing about the inertia", ""};

@@ -116,7 +116,7 @@ void mend_position(const ReadOptions& options, RecordedRows& table) {
   unwrap(turn, options.unwrap, table.target);
   if (wraps > 0)
     table.assumed.emplace_back("position.unwrapped",
-                               "x1 begins anew {} times, after a turn of {:.4g} [rad]: counted on",
+                               "x1 starts again {} times, after a turn of {:.4g} [rad]: counted on",
                                std::vector<Remark::Value>{static_cast<long>(wraps), turn});
   const Jumps jumps = take_out_jumps(table.t, table.x1);
   if (jumps.rows > 0)

@@ -96,7 +96,7 @@ bool FitSummary::closes_gap() const {
 }
 
 std::string FitSummary::brief_report() const {
-  std::string text = fmt::format("reference: {}", to_string(status));
+  std::string text = fmt::format("fit: {}", to_string(status));
   if (status == FitStatus::kNotRun || status == FitStatus::kFailed) return text + ": " + message.text();
   if (const FittedParameter* gap = find("gap"); gap != nullptr && gap->estimated) {
     text += fmt::format(", gap {}", number(gap->value));

@@ -26,7 +26,7 @@ struct Rival {
 };
 constexpr Rival kRivals[] = {{"hunt_crossley_contact", "Hunt-Crossley contact", {kNaN, kNaN}, true, 2.0, 3.0},
                              {"contact_hardening", "hardening contact", {2.0, 1.5}, true},
-                             {"load_breakaway", "load that takes more to break away", {0.05, 0.1}}};
+                             {"load_breakaway", "load that needs more to break away", {0.05, 0.1}}};
 
 const EffectEntry& law_of(const Rival& rival) {
   for (const EffectEntry* entry : rival_law_table())

@@ -123,15 +123,15 @@ Remark at_bound(const std::string& key, double value, const std::string& unit) {
   return {"at_bound", "{} ended at its bound {:.4g} {}.", {key, value, RemarkUnit{unit}}};
 }
 Remark no_trace(const std::string& key) {
-  return {"no_trace", "{} leaves no trace in the recordings; it takes {}.", {key, excitation_for(key)}};
+  return {"no_trace", "{} leaves no trace in the recordings; it needs {}.", {key, excitation_for(key)}};
 }
 Remark like_initial_state(const std::string& key) {
-  return {"like_initial_state", "{} cannot be told apart from the initial state: not identifiable.", {key}};
+  return {"like_initial_state", "{} cannot be separated from the initial state: not identifiable.", {key}};
 }
 Remark change_together(const std::vector<std::string>& keys, const std::vector<double>& changes) {
   return Remark("change_together", "{} change together without a trace: ", {listed(keys)}) +
          what_is_determined(changes) +
-         Remark("excitation", " determined. Fix one of them; what would tell them apart is {}.",
+         Remark("excitation", " determined. Fix one of them; what would separate them is {}.",
                 {excitation_for_any(keys)});
 }
 Remark not_determined(const std::string& key, double std, const std::string& unit,
@@ -146,7 +146,7 @@ Remark no_information(const std::string& key) {
 }
 Remark little_known(const std::string& key, double percent) {
   return {"little_known",
-          "{} has a relative standard error of {:.2g} %; it takes {} to know it better.",
+          "{} has a relative standard error of {:.2g} %; {} would determine it better.",
           {key, percent, excitation_for(key)}};
 }
 
@@ -178,17 +178,17 @@ Remark gap_bears_little(double ratio, double floors) {
   return {
       "gap_bears_little",
       "The model misses the recording by {:.3g} times the encoder's noise, and with its gap held closed by "
-      "{:.3g} times that: what it lacks may take the place of the gap.",
+      "{:.3g} times that: what it lacks may pose as the gap.",
       {floors, ratio}};
 }
 Remark gap_differs() {
   return {"gap_differs",
-          "Parts of the recording ask for different gaps: what the model takes for a gap is "
+          "Parts of the recording ask for different gaps: what the model reads as a gap is "
           "something else."};
 }
 Remark odd_coupling(const std::string& key, double value, const std::string& unit) {
   return {"odd_coupling",
-          "It misses the recording even with {} at its bound ({:.3g} {}): the coupling takes the place of "
+          "It misses the recording even with {} at its bound ({:.3g} {}): the coupling stands in for "
           "something else.",
           {key, value, RemarkUnit{unit}}};
 }
@@ -238,8 +238,8 @@ Doubt mistimed(const InputTiming& timing) {
       "input_timing",
       fmt::format("the motion answers to the input {:.2g} ± {:.1g} rows {} its row",
                   std::abs(timing.early_rows), timing.std_rows, early ? "before" : "after"),
-      early ? "u changes between the rows, or its rows stand too late: record at the rate of the drive's loop"
-            : "the drive acts later than its log says, or u's rows stand too early: record u and x1 of the "
+      early ? "u changes between the rows, or its rows come too late: record at the rate of the drive's loop"
+            : "the drive acts later than its log says, or u's rows come too early: record u and x1 of the "
               "same "
               "instant"};
 }
@@ -248,13 +248,13 @@ Doubt patterned(const Correlation& correlation) {
           fmt::format("what the fitted model leaves is as small as the encoder's step but not random: lag-1 "
                       "autocorrelation {:.2f}, of which the counts explain {:.2f}",
                       correlation.lag1, correlation.quantiser),
-          "something small is missing, or u and x1 are not of the rows that they stand in"};
+          "something small is missing, or u and x1 do not belong to the same rows"};
 }
 
 Remark another_gap(double from, double to) {
   return {"another_gap",
           "the gap is {:.3g} [rad] on one part of the recordings and {:.3g} [rad] on another: what the model "
-          "takes for a gap is something else, and none is reported.",
+          "reads as a gap is something else, and none is reported.",
           {from, to}};
 }
 Remark values_move(const Remark& where, const std::vector<ValueShift>& moved) {

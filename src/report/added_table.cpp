@@ -56,8 +56,7 @@ std::string origin_words(const DiagnosisResult& r) {
   if (d.balanced)
     return ", by the " + torque +
            " balance on the recordings that were fitted: the simulated motion lacks something yet, for which "
-           "a "
-           "refit to it would bend them";
+           "a refit to it would bend them";
   return std::string(", refitted together to the motion") +
          (d.added.front().share_of == ShareOf::kTorque ? "; the " + torque + " balance has chosen them" : "");
 }
@@ -77,7 +76,7 @@ std::string added_table(const DiagnosisResult& r) {
     const bool on_top = a.established && !added.front().established;
     const std::string others = a.established ? alternatives(a, r.diagnosis.effects) : "";
     std::string effect = fmt::format("`{}`{} ({})", a.effect, others,
-                                     !others.empty() ? "not told apart"
+                                     !others.empty() ? "not separated"
                                      : on_top        ? "established with `" + added.front().effect + "`"
                                      : a.established ? established
                                                      : "cause open");
@@ -94,8 +93,7 @@ std::string added_table(const DiagnosisResult& r) {
   if (text.empty()) return "";
   return "\n## What was added\n\nThe numbers of the model with all of it" + origin_words(r) +
          ". The intervals hold for that model, as it follows the recordings that were fitted; a number "
-         "without "
-         "one these do not determine by themselves.\n\n"
+         "without one these do not determine by themselves.\n\n"
          "| effect | number | value |\n|---|---|---|\n" +
          text;
 }

@@ -50,8 +50,8 @@ std::string size_lines(const BlindScore& s) {
   return fmt::format(
       "\nShrink of the held-out error, of effects that were named and had at least 3 floors of mismatch: "
       "median {} (aim 0.97), tenth percentile {} (aim 0.8); of effects whose law is another than the "
-      "catalogue's, median {} (aim 0.9). Effects in a group that the data does not tell apart: median {}, "
-      "mean {}.\n",
+      "catalogue's, median {} (aim 0.9). Effects in a group that the data does not separate: median {}, mean "
+      "{}.\n",
       number(s.shrink_median, 3), number(s.shrink_tenth, 3), number(s.shrink_other_law, 3),
       number(s.group_median, 0), number(s.group_mean, 2));
 }
@@ -101,8 +101,7 @@ std::string failures(const BlindScore& s) {
 std::string seal_sentence(const BlindScore& s) {
   if (s.announced_seal.empty())
     return "Labels and answers are those that were sealed; whether the answers were sealed before the labels "
-           "were "
-           "opened was not checked: no seal was announced (`blind score --seal`).";
+           "were opened was not checked: no seal was announced (`blind score --seal`).";
   return "Labels and answers are those that were sealed, and the answers' seal is the one that was announced "
          "(" +
          s.announced_seal + ").";
@@ -112,9 +111,9 @@ std::string blind_text(const BlindScore& s, const std::vector<FigureData>& figur
   std::string text = fmt::format(
       "# {}\n\n{} cases were counted; {} others served to calibrate the probabilities. {}, which saw "
       "recordings and data sheets alone. {}"
-      "\n\nOne and two effects are counted where the refitted "
-      "nominal model leaves more than 2 floors. Named: the effect, or a group that holds it. Taken out: the "
-      "first step decides again from what it had found, without the truth among its candidates.\n\n",
+      "\n\nOne and two effects are counted where the refitted nominal model leaves more than 2 floors. "
+      "Named: the effect, or a group that holds it. Taken out: the first step decides again from what it had "
+      "found, without the truth among its candidates.\n\n",
       s.name, s.report_cases, s.calibration_cases,
       s.configuration.empty()
           ? "Recordings are those that were sealed, and the answers those of the diagnosis"

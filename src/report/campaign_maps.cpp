@@ -86,7 +86,7 @@ void add_row(FigureData& figure, const CampaignSummary& s, const SummaryTable& t
 }
 
 void add_disagreement(FigureData& figure, const CampaignSummary& s, const SummaryTable& table) {
-  Panel apart = empty_map(s, table, "model-free and reference disagree (% where both answer)");
+  Panel apart = empty_map(s, table, "model-free and fitted gap disagree (% where both answer)");
   Panel nearer = empty_map(s, table, "of these, model-free nearer to the truth (%)");
   for (const SummaryCell& c : table.cells) {
     const double share = c.both > 0 ? static_cast<double>(c.disagree) / c.both : kNaN;

@@ -33,8 +33,7 @@ std::string score_cells(const EstimatorScore& e) {
 
 constexpr const char* kScoreHead =
     " answers | n judged | median error | 90 % below | bias (95 %) | within 5 % | intervals that hold the "
-    "gap "
-    "(Wilson) | median width | mean interval score |\n";
+    "gap (Wilson) | median width | mean interval score |\n";
 
 std::string score_table(const CampaignSummary& s) {
   std::string text =
@@ -47,9 +46,8 @@ std::string score_table(const CampaignSummary& s) {
 /// Trust, denials and cost.
 std::string trust_table(const CampaignSummary& s) {
   std::string text =
-      "\n| estimator | told good, of these hold the gap | denied a gap | off by more than 5 % | passes over "
-      "the "
-      "recording | told of the drive |\n|---|---|---|---|---|---|\n";
+      "\n| estimator | trust good, of these hold the gap | denied a gap | off by more than 5 % | passes over "
+      "the recording | given of the drive |\n|---|---|---|---|---|---|\n";
   for (const CampaignEstimator& e : estimators_of(s)) {
     const EstimatorScore& score = s.total.*(e.score);
     std::string told = "nothing";
@@ -70,10 +68,8 @@ std::string contest_table(const CampaignSummary& s) {
   if (s.contests.empty()) return "";
   std::string text =
       "\n## On the runs that both answer\n\n| both | n | median error of the first | of the second | first "
-      "less "
-      "second (95 %) | first nearer | n with two intervals | disagree | correlation ρ of their errors (95 %) "
-      "| "
-      "disagree by ρ |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      "less second (95 %) | first nearer | n with two intervals | disagree | correlation ρ of their errors "
+      "(95 %) | disagree by ρ |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const EstimatorPair& p : s.contests) {
     const std::string rho = std::isfinite(p.correlation)
                                 ? fmt::format("{:.2f} ({:.2f} to {:.2f})", p.correlation,
@@ -86,8 +82,7 @@ std::string contest_table(const CampaignSummary& s) {
   }
   return text +
          "\nThey disagree where they differ by more than 1.96 √(σ₁² + σ₂² − 2ρσ₁σ₂): with ρ = 0, as a single "
-         "run "
-         "takes it, and with that of their errors here, as both read the same noise.\n";
+         "run takes it, and with that of their errors here, as both read the same noise.\n";
 }
 
 /// Every setting of an axis with its n.
@@ -174,9 +169,8 @@ std::string campaign_text(const CampaignSummary& s, const std::vector<FigureData
         s.repeated);
   text +=
       ". An answer is the gap: a bound is none, nor is a play at zero torque, the first of several gaps, or "
-      "a "
-      "fit that is rejected or did not converge; all but `literal`, which claims none, have an interval. The "
-      "interval score is the width and 40 times what the gap lies outside.\n\n" +
+      "a fit that is rejected or did not converge; all but `literal`, which claims none, have an interval. "
+      "The interval score is the width and 40 times what the gap lies outside.\n\n" +
       score_table(s) + trust_table(s);
   text += contest_table(s) + answer_table(s) + figure_section(figures) + line_tables(s);
   text += bullet_section("Why the model-free detector gave no gap (# for numbers)", lines_of(s.refusals));

@@ -21,8 +21,8 @@ const CampaignEstimator& best_of(const std::vector<CampaignEstimator>& all, cons
 std::string told_words(const CampaignSummary& s, const CampaignEstimator& e) {
   const auto about =
       std::find_if(s.told.begin(), s.told.end(), [&](const SummaryTold& t) { return t.estimator == e.key; });
-  if (about == s.told.end() || about->told.empty()) return ", told nothing of the drive";
-  return fmt::format(", told {}{}", about->told.front(),
+  if (about == s.told.end() || about->told.empty()) return ", given nothing of the drive";
+  return fmt::format(", given {}{}", about->told.front(),
                      about->told.size() > 1 ? " (others in other runs)" : "");
 }
 
@@ -100,9 +100,8 @@ std::string third_line(const CampaignSummary& s, const std::vector<CampaignEstim
     risks.push_back(fmt::format("{} {} of {}", e.name, score.judged - score.within_5, score.judged));
   }
   return fmt::format(
-      "That costs, in passes over a recording of {:.0f} samples (median): {}; and of what each tells as the "
-      "gap "
-      "is off by more than 5 %: {}.",
+      "That costs, in passes over a recording of {:.0f} samples (median): {}; and of what each gives as the "
+      "gap is off by more than 5 %: {}.",
       s.samples, fmt::join(costs, ", "), fmt::join(risks, ", "));
 }
 
@@ -118,10 +117,9 @@ std::vector<std::string> campaign_verdict(const CampaignSummary& s) {
     for (const CampaignEstimator& e : all)
       told.push_back(
           fmt::format("{} {} of {}", e.name, (s.total.*(e.score)).answered, (s.total.*(e.score)).runs));
-    return {
-        fmt::format("The true gap is not known, or nobody tells one: which is nearer to it is not said. "
-                    "Answers: {}.",
-                    fmt::join(told, ", "))};
+    return {fmt::format(
+        "The true gap is not known, or none was given: which is nearer to it is open. Answers: {}.",
+        fmt::join(told, ", "))};
   }
   return {first_line(s, all), second_line(s, all), third_line(s, all)};
 }

@@ -129,7 +129,7 @@ FigureData gap_over_recordings(const DriveChanges& all) {
   figure.title = "The gap over the recordings";
   const std::vector<std::string> names = short_names(all.reports);
   Panel plays = plays_over_reports(all, names);
-  if (plays.series.empty()) return missing_figure(figure.file, figure.title, "no report tells a gap");
+  if (plays.series.empty()) return missing_figure(figure.file, figure.title, "no report gives a gap");
   figure.panels.push_back(std::move(plays));
   add_loops(all, names, figure);
   figure.reading = changes_headline(all) + ".";

@@ -44,9 +44,9 @@ std::string comparison_text(const DriveChanges& all, const std::vector<FigureDat
   if (const std::string which = which_text(all); !which.empty()) text += "\n" + which + ".\n";
   text += bullet_section(all.order == ReportOrder::kUnits ? "Units" : "Over the reports", order_lines(all));
   text += bullet_section("Warnings", all.warnings) + figure_section(figures) + "\n## Quantities\n\n";
-  text += all.quantities.empty() ? "No report tells one.\n" : table(all);
+  text += all.quantities.empty() ? "No report gives one.\n" : table(all);
   text +=
-      "\nThe interval of a difference is that of this row alone; a verdict takes all rows together. "
+      "\nThe interval of a difference is that of this row alone; a verdict considers all rows together. "
       "Intervals\n"
       "are those of single recordings: what a drive does differently from day to day (temperature, grease,\n"
       "where it stands) is not in them, so a change that was not looked for should be seen again.\n";

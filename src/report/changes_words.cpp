@@ -159,7 +159,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& folders) {
 
 std::string changes_headline(const DriveChanges& all) {
   if (all.compared == 0)
-    return "Nothing to compare: no quantity is told both in " + all.reports.front() +
+    return "Nothing to compare: no quantity is given both in " + all.reports.front() +
            " and in another report";
   if (const QuantityCourse* lead = leading_course(all)) return "Changed: " + course_sentence(all, *lead);
   if (!all.courses.empty()) return "No change is seen over these reports";
@@ -171,7 +171,7 @@ std::string changes_headline(const DriveChanges& all) {
            " beyond the errors; other reports do, see below";
   const int same = count(all, ChangeVerdict::kSame);
   if (same == all.compared) return "The same: every difference is within the tolerance";
-  return "No change is seen beyond the errors; what they leave room for is told row by row";
+  return "No change is seen beyond the errors; what they leave room for is listed row by row";
 }
 
 std::string which_text(const DriveChanges& all) {
@@ -207,8 +207,7 @@ std::vector<std::string> order_lines(const DriveChanges& all) {
 std::string changes_count(const DriveChanges& all) {
   return fmt::format(
       "{} changed, {} same, {} open, of {} differences from {} (5 % that a word of any row is wrong: "
-      "intervals "
-      "of {:.2f} standard errors)",
+      "intervals of {:.2f} standard errors)",
       count(all, ChangeVerdict::kChanged), count(all, ChangeVerdict::kSame),
       all.compared - count(all, ChangeVerdict::kChanged) - count(all, ChangeVerdict::kSame), all.compared,
       all.reports.front(), all.quantile);

@@ -104,7 +104,7 @@ FigureData diagnosis_detectable(const DiagnosisResult& r) {
   figure.title = "Smallest amounts that would have been named";
   const std::vector<const DetectableEffect*> effects = drawn(r);
   if (effects.empty()) {
-    figure = missing_figure(figure.file, figure.title, "nobody asked for it, or no amount could be told");
+    figure = missing_figure(figure.file, figure.title, "nobody asked for it, or no amount could be found");
     figure.expected = false;
     return figure;
   }
@@ -138,9 +138,8 @@ std::string detectable_table(const DiagnosisResult& r) {
   std::string text = fmt::format(
       "\n## What would have been named\n\n{}\n\nForetold to first order on top of the model that the "
       "diagnosis has come to, one effect at a time, at the numbers of *at*; where the torque balance decides "
-      "and "
-      "`detectable: true` asks for it, corrected by implants into its rows. *Of the input*: rms of "
-      "the {} that the smallest amount makes.\n\n| effect | smallest amount | at | of the input | why not "
+      "and `detectable: true` asks for it, corrected by implants into its rows. *Of the input*: rms of the "
+      "{} that the smallest amount makes.\n\n| effect | smallest amount | at | of the input | why not "
       "|\n|---|---|---|---|---|\n",
       sentence(r), r.coordinates.torque_word());
   std::vector<double> shares;

@@ -108,10 +108,8 @@ std::string loop_fit_text(const DiagnosisResult& r) {
   const std::string unit = r.coordinates.position_unit();
   std::string text = fmt::format(
       "\n## Fitted in the loop\n\nfitted.yaml has the numbers with which the whole loop follows the "
-      "recordings "
-      "best, goal in, position out: {} off in the mean over what was fitted, {} before.{}\n\n| number | "
-      "value "
-      "|\n|---|---|\n",
+      "recordings best, goal in, position out: {} off in the mean over what was fitted, {} before.{}\n\n| "
+      "number | value |\n|---|---|\n",
       quantity(fit.mae_after, unit), quantity(fit.mae_before, unit),
       fit.added.empty() ? "" : fmt::format(" It asked for {}.", fmt::join(fit.added, ", ")));
   for (const LoopNumber& n : fit.numbers) text += fmt::format("| {} | {:.4g} {} |\n", n.key, n.value, n.unit);
@@ -170,11 +168,9 @@ std::string probability_words(const DiagnosisResult& r) {
 std::string basis_words(const DiagnosisResult& r) {
   std::string text =
       "Each candidate alone, on the nominal model, every estimated number refitted to the motion; the "
-      "columns "
-      "are of the held-out *motion*, not of the missing " +
-      std::string(torque_word(r)) + " that the card tells.";
-  if (!r.diagnosis.added.empty())
-    text += " What the model with all that was added has stands under What was added.";
+      "columns are of the held-out *motion*, not of the missing " +
+      std::string(torque_word(r)) + " on the card.";
+  if (!r.diagnosis.added.empty()) text += " For the model with all that was added see What was added.";
   return text + " `gapscope effects --laws` has the law of each and what its parameters mean.";
 }
 
@@ -191,12 +187,11 @@ std::string ranking_table(const DiagnosisResult& r) {
                        !budget_decides(r.diagnosis) &&
                        std::any_of(ranking.begin(), ranking.end(),
                                    [](const RankedEffect& e) { return std::isfinite(e.probability); });
-  std::string text =
-      "\n## Which effect, judged by the motion\n\n" + basis_words(r) + probability_words(r) +
-      fmt::format(
-          "\n\n| effect |{} explained share | error removed | windows better | parameters, alone | remark "
-          "|\n|---|{}---|---|---|---|---|\n",
-          learned ? " probability |" : "", learned ? "---|" : "");
+  std::string text = "\n## Which effect, judged by the motion\n\n" + basis_words(r) + probability_words(r) +
+                     fmt::format(
+                         "\n\n| effect |{} explained share | error removed | windows better | parameters, "
+                         "alone | remark |\n|---|{}---|---|---|---|---|\n",
+                         learned ? " probability |" : "", learned ? "---|" : "");
   for (const RankedEffect& e : r.diagnosis.ranking)
     text += fmt::format("| `{}` |{} {} | {} | {} | {} | {} |\n", e.effect,
                         !learned                       ? ""
@@ -229,7 +224,7 @@ std::string steps_table(const DiagnosisResult& r) {
          (added(r) ? "Every candidate was refitted on top of what was found before it."
                    : "No candidate was sure: every other was tried on top of the likeliest, and none bore it "
                      "out.") +
-         "\n\n| on top of | effect | outcome | not told from | error before | after | error removed | "
+         "\n\n| on top of | effect | outcome | not separable from | error before | after | error removed | "
          "parameters | made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;
 }
@@ -237,17 +232,15 @@ std::string steps_table(const DiagnosisResult& r) {
 std::string periodic_table(const DiagnosisResult& r) {
   if (r.diagnosis.periodic.empty()) return "";
   const std::string angle = r.coordinates.position_unit(), torque = r.coordinates.shown_unit("N m");
-  std::string text =
-      "\n## " + std::string(r.coordinates.rotational() ? "Torque" : "Force") +
-      " that repeats with the position\n\nIn what the model leaves" +
-      (added(r) ? " with all that was added" : "") +
-      ". Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every step, "
-      "which start at the "
-      "strongest lines and at given periods.\n\n| period | " +
-      (r.coordinates.rotational() ? "cycles per turn | " : "") +
-      "amplitude | over neighbouring periods | held-out windows better | holds there "
-      "|\n|---|---|---|---|---|" +
-      (r.coordinates.rotational() ? "---|\n" : "\n");
+  std::string text = "\n## " + std::string(r.coordinates.rotational() ? "Torque" : "Force") +
+                     " that repeats with the position\n\nIn what the model leaves" +
+                     (added(r) ? " with all that was added" : "") +
+                     ". Listed, not added: `cogging_torque` and `torque_ripple` are candidates of every "
+                     "step, which start at the strongest lines and at given periods.\n\n| period | " +
+                     (r.coordinates.rotational() ? "cycles per turn | " : "") +
+                     "amplitude | over neighbouring periods | held-out windows better | holds there "
+                     "|\n|---|---|---|---|---|" +
+                     (r.coordinates.rotational() ? "---|\n" : "\n");
   for (const PeriodicTorque& p : r.diagnosis.periodic)
     text += fmt::format("| {} | {}{} | {} | {} of {} | {} |\n", quantity(p.period, angle),
                         r.coordinates.rotational() ? rounded(p.periods_per_turn) + " | " : "",
@@ -289,11 +282,10 @@ std::string blame_table(const DiagnosisResult& r) {
                             ? fmt::format("{} {}", shown(std::abs(percent)), percent > 0 ? "high" : "low")
                             : "–");
   }
-  return text +
-         (held ? "\nHeld: the " + std::string(torque_word(r)) +
-                     " balance, which has the numbers of what was added here, leaves it where the fit of "
-                     "the nominal model had it, with that model's bias.\n"
-               : "");
+  return text + (held ? "\nHeld: the " + std::string(torque_word(r)) +
+                            " balance, which has the numbers of what was added here, leaves it where the fit "
+                            "of the nominal model had it, with that model's bias.\n"
+                      : "");
 }
 
 std::string experiment_table(const DiagnosisResult& r) {
@@ -303,9 +295,8 @@ std::string experiment_table(const DiagnosisResult& r) {
   if (!next.proposes()) return text;
   text +=
       "\n`next_experiment.yaml` and `next_experiment.csv` hold the first one. Each model was refitted to "
-      "what the other "
-      "one would record; what it then leaves counts, in units of the encoder's noise (σ).\n\n| input | "
-      "travel |";
+      "what the other one would record; what it then leaves counts, in units of the encoder's noise "
+      "(σ).\n\n| input | travel |";
   for (const Separation& s : next.tried.front().separations)
     text += fmt::format(" `{}`, taken for `{}` |", s.truth, s.rival);
   text += "\n|---|---|";
@@ -314,7 +305,7 @@ std::string experiment_table(const DiagnosisResult& r) {
   for (const TriedInput& t : next.tried) {
     text += fmt::format("| {} | {} |", t.input, quantity(t.travel, r.coordinates.position_unit()));
     for (const Separation& s : t.separations)
-      text += s.contained ? " contained, nothing can tell |" : " " + rounded(s.excess) + " σ |";
+      text += s.contained ? " contained, nothing can separate it |" : " " + rounded(s.excess) + " σ |";
     text += "\n";
   }
   return text;

@@ -198,11 +198,8 @@ std::string budget_table(const DiagnosisResult& r) {
   const Percents percent = percents_of(b);
   std::string text = fmt::format(
       "\n## Error budget\n\nMissing {}: what the input applies and the model does not account for, rms on "
-      "held-out data "
-      "below "
-      "{} Hz. The input applies {} in all. Every line refits all numbers of the "
-      "lines above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: "
-      "of "
+      "held-out data below {} Hz. The input applies {} in all. Every line refits all numbers of the lines "
+      "above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: of "
       "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "
       "say.\n\n"
       "| added | left | of the input | share | 95 % | alone | last |\n|---|---|---|---|---|---|---|\n"
@@ -219,9 +216,8 @@ std::string budget_table(const DiagnosisResult& r) {
                   [](const BudgetRung& g) { return std::isfinite(g.period); }))
     text +=
         "\nOf what repeats with the position, period and amplitude are those of what was fitted. An encoder "
-        "that "
-        "counts from where it was switched on does not keep the phase: where other recordings judge, it is "
-        "refitted in each of them.\n";
+        "that counts from where it was switched on does not keep the phase: where other recordings judge, it "
+        "is refitted in each of them.\n";
   if (!b.uncounted.empty()) {
     std::vector<std::string> names;
     for (const std::string& effect : b.uncounted) names.push_back(readable(effect));

@@ -77,7 +77,7 @@ void add_reference(const ReportView& view, Panel& panel) {
   if (gap->estimated && !gap->identifiable) remark = "not identifiable";
   const bool rejected = gap->estimated && view.run.reference->rejected();
   if (rejected) remark = quantity(gap->value, view.length_unit) + ", model rejected";
-  add_row(panel, "reference", gap->value, ci95, rejected ? LineStyle{kGrey, 4.0, {}} : reference_style(),
+  add_row(panel, "fitted model", gap->value, ci95, rejected ? LineStyle{kGrey, 4.0, {}} : reference_style(),
           rejected ? Marker::kCross : Marker::kCircle, remark);
 }
 

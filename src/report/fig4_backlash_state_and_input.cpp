@@ -92,7 +92,7 @@ FigureData fig4_backlash_state_and_input(const ReportView& view) {
   figure.title = "Backlash state and input";
   if (view.state.empty())
     return missing_figure(figure.file, figure.title,
-                          "x2 was not recorded and no fitted model with a load stands in for it");
+                          "x2 was not recorded, and there is no fitted model with a load in its place");
   const DriveSignal drive = drive_signal(view);
   const Turns turns = turns_of(view, drive.values);
   const LineStyle style = view.source == StateSource::kFitted ? reference_style() : measured_style();

@@ -12,10 +12,10 @@ namespace gapscope::internal::report {
 FigureData fit_starts(const ReportView& view) {
   FigureData figure;
   figure.file = "fit_starts.png";
-  figure.title = "Where the searches of the reference ended";
+  figure.title = "Where the searches of the fit ended";
   const auto& reference = view.run.reference;
   if (!reference || reference->start_costs.size() < 2) {
-    figure.missing = reference ? "the first start settled the fit" : "the reference was not asked for";
+    figure.missing = reference ? "the first start settled the fit" : "no model was fitted";
     figure.expected = false;
     return figure;
   }
@@ -50,9 +50,8 @@ FigureData fit_starts(const ReportView& view) {
   panel.series.push_back(s);
   figure.panels.push_back(panel);
   figure.reading = fmt::format(
-      "{} of {} searches ended in the best minimum, {} times the encoder floor; the worst at {} "
-      "times.",
-      same, s.x.size(), plain_number(best), plain_number(std::sqrt(reference->start_costs.back())));
+      "{} of {} searches ended in the best minimum, {} times the encoder floor; the worst at {} times.", same,
+      s.x.size(), plain_number(best), plain_number(std::sqrt(reference->start_costs.back())));
   return figure;
 }
 

@@ -18,7 +18,7 @@ a{color:var(--mark)}
 blockquote{margin:1rem 0;padding:.5rem 1rem;border-left:4px solid #d29922;background:var(--card)}
 details{border-top:1px solid var(--line);padding:.5rem 0}
 summary{cursor:pointer;font-weight:600;font-size:1.15rem}
-.wide{overflow-x:auto}
+.wide{overflow-x:auto;background:linear-gradient(90deg,var(--paper) 40%,transparent) 0 0/3rem 100% no-repeat local,linear-gradient(270deg,var(--paper) 40%,transparent) 100% 0/3rem 100% no-repeat local,linear-gradient(90deg,#8887,transparent) 0 0/.8rem 100% no-repeat,linear-gradient(270deg,#8887,transparent) 100% 0/.8rem 100% no-repeat}
 table{border-collapse:collapse;margin:.8rem 0;font-size:.92rem}
 th,td{text-align:left;vertical-align:top;padding:.3rem .6rem;border-bottom:1px solid var(--line)}
 .short{white-space:nowrap}

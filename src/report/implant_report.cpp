@@ -52,8 +52,7 @@ std::string amount_of(const ScoredImplant& i) {
 std::string case_table(const BlindScore& s) {
   std::string text =
       "\n## Every case\n\n| case | implant | amount | of the input's rms | foretold share | verdict | "
-      "effects "
-      "added | implant named |\n|---|---|---|---|---|---|---|---|\n";
+      "effects added | implant named |\n|---|---|---|---|---|---|---|---|\n";
   std::vector<const ScoredCase*> cases;
   for (const ScoredCase& c : s.cases) cases.push_back(&c);
   std::stable_sort(cases.begin(), cases.end(), [](const ScoredCase* a, const ScoredCase* b) {
@@ -110,8 +109,7 @@ FigureData implant_figure(const BlindScore& s) {
   figure.panels.push_back(std::move(p));
   figure.lines = {
       "At the right: cases that were named / all. Noise of the input, knocks, lost counts and stray sines "
-      "are "
-      "outside the catalogue: there is no name to be given."};
+      "are outside the catalogue: there is no name to be given."};
   figure.reading = s.counts.empty() ? ""
                                     : fmt::format("{}: {} of {}.", s.counts.front().name,
                                                   s.counts.front().count, s.counts.front().of);
@@ -125,9 +123,9 @@ std::string implant_text(const BlindScore& s, const std::vector<FigureData>& fig
       "drive obeyed m a = Km u + rest, and under u' = u - torque/Km the same motion is that of a drive which "
       "has the torque, too. The diagnosis saw recordings and configurations alone. {}\n\n"
       "Named: the effect was added to the model, or is in the group of one that was. The foretold share is "
-      "what the implant would take of the held-out residual torque, beside the best model of the recordings "
-      "as they are; what that model says in its place counts for nothing. Effects that the drive has without "
-      "any implant are not implanted, and are no wrong answer.\n\n",
+      "what the implant would explain of the held-out residual torque, beside the best model of the "
+      "recordings as they are; what that model says in its place counts for nothing. Effects that the drive "
+      "has without any implant are not implanted, and are no wrong answer.\n\n",
       s.name, s.report_cases, sealed);
   text += counts + figure_section(figures) + case_table(s);
   return text + fmt::format("\nSHA-256 of the manifest {}, seal of the answers {}.\n\ngapscope {}\n",

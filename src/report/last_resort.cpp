@@ -80,7 +80,7 @@ FigureData diagnosis_law(const DiagnosisResult& r) {
   FigureData figure;
   figure.file = "diagnosis_law.png";
   if (r.diagnosis.laws.empty()) {
-    figure = missing_figure(figure.file, "A law of what remains", "no free-form law takes what remains");
+    figure = missing_figure(figure.file, "A law of what remains", "no free-form law explains what remains");
     figure.expected = false;
     return figure;
   }
@@ -99,8 +99,7 @@ FigureData diagnosis_law(const DiagnosisResult& r) {
   figure.width = 3200.0, figure.columns = 2;
   figure.reading = fmt::format(
       "Means of the held-out correcting {} over bins of the {}; the law with its 95 % intervals, all other "
-      "numbers "
-      "refitted with it.",
+      "numbers refitted with it.",
       r.coordinates.torque_word(), law.variable);
   return figure;
 }
@@ -110,11 +109,10 @@ std::string law_table(const DiagnosisResult& r) {
   for (const LastResortLaw& law : r.diagnosis.laws) {
     text += fmt::format(
         "\n## What remains, as a function of {}\n\nThe law says nothing of a cause. Refitted in the "
-        "simulator it "
-        "takes {} of the held-out error above the floor (95 %: {} to {}); the correcting {} falls from {} to "
-        "{}. "
-        "`{}` holds the table to add to the motor's {}, `fitted_with_law.yaml` the model with the law. The "
-        "interval is for recordings within the table: what lies beyond it has not been seen.\n",
+        "simulator it explains {} of the held-out error above the floor (95 %: {} to {}); the correcting {} "
+        "falls from {} to {}. `{}` holds the table to add to the motor's {}, `fitted_with_law.yaml` the "
+        "model with the law. The interval is for recordings within the table: what lies beyond it has not "
+        "been seen.\n",
         law.variable, rounded(law.shrink), rounded(law.shrink_ci95.low), rounded(law.shrink_ci95.high),
         r.coordinates.torque_word(), quantity(law.before_torque, r.coordinates.shown_unit("N m")),
         quantity(law.after_torque, r.coordinates.shown_unit("N m")), compensation_name(law),
@@ -123,13 +121,12 @@ std::string law_table(const DiagnosisResult& r) {
       text +=
           "Its scale is a convention: the curve changes nothing at the largest input, and all numbers of the "
           "model in `fitted_with_law.yaml` go with that. A drive that lacks torque only at large inputs has "
-          "all "
-          "of them, and the curve, too large by one factor: the table serves with the numbers of that file, "
-          "not with those of a sheet.\n";
+          "all of them, and the curve, too large by one factor: the table serves with the numbers of that "
+          "file, not with those of a sheet.\n";
     if (law.variable == "position")
       text +=
           "An incremental encoder counts from where it was switched on: after that the table has to be "
-          "shifted to where the drive stands.\n";
+          "shifted to where the drive is.\n";
   }
   return text;
 }

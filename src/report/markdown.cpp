@@ -98,7 +98,7 @@ std::string estimate_rows(const RunResult& run, const DiagnosisResult* diagnosis
   if (run.literal)
     told("S1 to S6 as printed", read_gap(*run.literal, unit), {}, "motor position and a bound L");
   if (const FittedParameter* gap = parameter(run, "gap"))
-    row(run.reference->rejected() ? "model-based reference (rejected)" : "model-based reference", gap->value,
+    row(run.reference->rejected() ? "fitted model (rejected)" : "fitted model", gap->value,
         run.reference->shown_interval(*gap), "motor position, input, equations and " + given(*run.reference));
   if (const std::optional<ModelGap> gap = diagnosis ? diagnosis->diagnosis.model_gap : std::nullopt;
       gap && gap->origin == GapOrigin::kEstimated && added(*diagnosis))
@@ -171,7 +171,7 @@ std::string passage_table(const RunResult& run) {
   };
   std::string text = fmt::format(
       "\n## Passages of the gap\n\nx1 from the loss of contact at t1 to the impact at t2; 2β is what each "
-      "tells of the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard "
+      "reads of the gap, with its standard error.{}\n\n| {}t1 [s] | t2 [s] | x1 | moves by | 2β | standard "
       "error | used |\n|{}---|---|---|---|---|---|---|\n",
       begun > kTablePassages
           ? fmt::format(" The first {} of {}; `result.json` has all.", kTablePassages, begun)
@@ -202,9 +202,8 @@ std::string parameter_table(const RunResult& run, const DiagnosisResult* diagnos
   if (!run.reference || run.reference->parameters.empty()) return "";
   const FitSummary& fit = *run.reference;
   std::string text = fmt::format(
-      "\n## Parameters of the reference\n\n{}Trust: {}. {}\n\n| parameter | {} | identifiable | start | "
-      "remark "
-      "|\n|---|---|---|---|---|\n",
+      "\n## Parameters of the fitted model\n\n{}Trust: {}. {}\n\n| parameter | {} | identifiable | start | "
+      "remark |\n|---|---|---|---|---|\n",
       is_replaced(run, diagnosis) ? replaced_text(run, *diagnosis) : "", to_string(fit.trust), fit.why.text(),
       fit.rejected() ? "value (of a rejected model, hence without an interval)"
                      : "value (± half of the 95 % interval)");
@@ -223,8 +222,7 @@ std::string second_encoder_table(const RunResult& run) {
   const std::string unit = position_unit(run);
   std::string text =
       "\n## Validation by the encoder on the load\n\nThe fit read the motor's alone. The mean difference of "
-      "each "
-      "recording is taken out: the two have no common zero.\n\n| quantity | value |\n|---|---|\n";
+      "each recording is taken out: the two have no common zero.\n\n| quantity | value |\n|---|---|\n";
   const auto row = [&](const char* name, const std::string& value) {
     text += fmt::format("| {} | {} |\n", name, value);
   };
@@ -236,7 +234,7 @@ std::string second_encoder_table(const RunResult& run) {
   if (std::isfinite(s.floor)) row("what this encoder alone leaves", quantity(s.floor, unit));
   if (std::isfinite(s.gap))
     row("gap by the difference of both, wind-up of the contact included", quantity(s.gap, unit));
-  if (std::isfinite(s.difference)) row("the reference's gap less that", quantity(s.difference, unit));
+  if (std::isfinite(s.difference)) row("the fitted gap less that", quantity(s.difference, unit));
   return text;
 }
 
@@ -301,8 +299,7 @@ std::string estimate_text(const RunResult& run, const Timing& timing, const Diag
   text +=
       timing_line(timing) + passage_table(run) + parameter_table(run, diagnosis) + second_encoder_table(run);
   if (is_replaced(run, diagnosis)) return text;  // by a model that needs no advice to sharpen this one
-  if (run.reference)
-    text += bullet_section("What would sharpen the reference", texts_of(run.reference->advice));
+  if (run.reference) text += bullet_section("What would sharpen the fit", texts_of(run.reference->advice));
   if (run.answer && run.answer->next.size() > 1)
     text += bullet_section("What would make the gap sure", run.answer->next);
   return text;

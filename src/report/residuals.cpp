@@ -197,9 +197,9 @@ FigureData residuals(const ReportView& view) {
   figure.file = "residuals.png";
   figure.title = "Recorded and simulated displacement";
   if (!view.recording || !view.fit)
-    return missing_figure(figure.file, figure.title,
-                          view.run.reference ? "the fit left no free run of the recording"
-                                             : "the model-based reference was not asked for");
+    return missing_figure(
+        figure.file, figure.title,
+        view.run.reference ? "the fit left no free run of the recording" : "no model was fitted");
   const std::vector<double> residual = difference_of(view.recording->position(), view.fit->position());
   const std::vector<double> tested =
       predicts(view) ? difference_of(view.recording->position(), view.fit->predicted) : residual;

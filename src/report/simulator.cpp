@@ -61,13 +61,11 @@ const char* found_words(const SimulatorRow& row) {
   // Where the other recording hardly moves with it, its amount alone tells a side that has it.
   if (row.found_in == FoundIn::kDrive && is_more_than_none(row, true))
     return "probably only in the drive: its amount is clear of zero, the motion that it makes is not clear "
-           "of "
-           "what the model leaves";
+           "of what the model leaves";
   if (row.found_in == FoundIn::kSimulator && is_more_than_none(row, false))
     return "probably only in the simulator: its amount is clear of zero, the motion that it makes is not "
-           "clear "
-           "of what the model leaves";
-  return "not told apart";
+           "clear of what the model leaves";
+  return "not separated";
 }
 
 std::string row_size(const DiagnosisResult& r, const SimulatorRow& row) {
@@ -93,10 +91,8 @@ std::string errors_text(const DiagnosisResult& r, const SimulatorComparison& c) 
   const std::string unit = r.coordinates.position_unit();
   std::string text = fmt::format(
       "\nOver the held-out input your simulator is {} rms off the drive. It cannot be run here, so the model "
-      "fitted "
-      "to its recording stands in for it: that one is {} off the drive and misses your simulator by {}, "
-      "which is "
-      "what the last column is worth.",
+      "fitted to its recording represents it: that one is {} off the drive and misses your simulator by {}, "
+      "which is what the last column is worth.",
       quantity(c.errors.simulator, unit), quantity(c.errors.stand_in, unit),
       quantity(c.errors.stand_in_miss, unit));
   if (std::isfinite(c.errors.mended))
@@ -174,9 +170,8 @@ std::string simulator_table(const DiagnosisResult& r) {
   text += rows_table(r, c) + errors_text(r, c);
   text += fmt::format(
       "\nOne model with the effects of both was fitted to both, ± is 95 %. *Size* is the motion that neither "
-      "recording takes over from the other's numbers, everything else refitted; a row counts where it is "
-      "more "
-      "than twice what the model leaves on that recording anyway, and than twice the floor of {}.\n",
+      "recording adopts of the other's numbers, everything else refitted; a row counts where it is more than "
+      "twice what the model leaves on that recording anyway, and than twice the floor of {}.\n",
       quantity(c.floor, r.coordinates.position_unit()));
   for (const std::string& warning : c.warnings) text += "\n- " + warning;
   return c.warnings.empty() ? text : text + "\n";

@@ -87,8 +87,7 @@ std::string spread_text(const DriveChanges& all) {
   }
   return text +
          "± is half of a 95 % interval; spread: standard deviation from one to the next, without what the "
-         "fits add to "
-         "it;\nof a fit: their standard error. (free): model-free.\n";
+         "fits add to it;\nof a fit: their standard error. (free): model-free.\n";
 }
 
 }  // namespace gapscope

@@ -63,9 +63,10 @@ std::string card_text(const Card& card) {
   std::size_t i = 0;
   for (const CardLine& line : card.lines()) {
     const char* const title = kTitles[i++];
-    if (!card.diagnosed && (&line.text == &card.cause || &line.text == &card.helps)) continue;
-    const bool all = !card.diagnosed && &line.text == &card.place;
-    text += fmt::format("- **{}:** {}\n", all ? "Where, cause, what helps" : title, typeset(line.brief));
+    if (!card.diagnosed &&
+        (&line.text == &card.place || &line.text == &card.cause || &line.text == &card.helps))
+      continue;  // what is next leads there
+    text += fmt::format("- **{}:** {}\n", title, typeset(line.brief));
   }
   const std::string full = card_in_full(card);
   return text + placeholders_of(text, "") + full + placeholders_of(full, text);

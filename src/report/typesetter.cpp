@@ -46,10 +46,9 @@ std::string font_folder() {
   }
   for (const std::string& folder : folders)
     if (std::filesystem::exists(folder + "/DejaVuSans.ttf")) return folder;
-  throw std::runtime_error(
-      "no DejaVuSans.ttf in " + folders[0] +
-      ": install the DejaVu fonts (Debian: fonts-dejavu-core and fonts-dejavu-extra) or set "
-      "GAPSCOPE_FONTS to the folder that holds them");
+  throw std::runtime_error("no DejaVuSans.ttf in " + folders[0] +
+                           ": install the DejaVu fonts (Debian: fonts-dejavu-core and fonts-dejavu-extra) or "
+                           "set GAPSCOPE_FONTS to the folder that holds them");
 }
 
 Typesetter::Typesetter() {

@@ -64,20 +64,18 @@ std::string reference_sentence(const RunResult& run) {
   const FittedParameter* gap = parameter(run, "gap");
   const std::string state = fit.converged() ? "" : " (the fit did not converge)";
   if (fit.status == FitStatus::kFailed || fit.status == FitStatus::kNotRun)
-    return "The model-based reference has no result: " + fit.message.text();
-  if (gap == nullptr) return "The model-based reference was told that the drive has no gap" + state + ".";
+    return "The fitted model has no result: " + fit.message.text();
+  if (gap == nullptr) return "The fitted model was given no gap" + state + ".";
   if (fit.closes_gap())
-    return "The model-based reference does as well with its gap closed, which does not say that the drive "
-           "has none" +
+    return "The fitted model does as well with its gap closed, which does not say that the drive has none" +
            state + ".";
   if (fit.rejected())
-    return "The model-based reference is rejected, its gap (" + quantity(gap->value, position_unit(run)) +
+    return "The fitted model is rejected, its gap (" + quantity(gap->value, position_unit(run)) +
            ") is not to be believed: " + fit.why.text();
   const std::string value = with_interval(gap->value, fit.shown_interval(*gap), position_unit(run));
-  if (!gap->estimated) return "The model-based reference took the gap as known, " + value + state + ".";
-  if (!gap->identifiable)
-    return "The model-based reference could not determine the gap (" + value + ")" + state + ".";
-  return "Model-based reference: " + value + state + ".";
+  if (!gap->estimated) return "The gap was given to the fitted model: " + value + state + ".";
+  if (!gap->identifiable) return "The fitted model could not determine the gap (" + value + ")" + state + ".";
+  return "Fitted model: " + value + state + ".";
 }
 
 std::string error_sentence(const RunResult& run, const std::string& name, double value,
@@ -223,12 +221,12 @@ std::string accuracy(const RunResult& run) {
   if (run.model_free) text += error_sentence(run, "model-free", run.model_free->gap, run.model_free->ci95);
   if (const FittedParameter* gap = parameter(run, "gap"); gap != nullptr && gap->estimated)
     text += (text.empty() ? "" : " ") +
-            error_sentence(run, "reference", gap->value, run.reference->shown_interval(*gap));
+            error_sentence(run, "fitted model", gap->value, run.reference->shown_interval(*gap));
   return text;
 }
 
 std::string without_estimate(const RunResult& run) {
-  return std::isfinite(run.simulated_gap) ? "No estimate stands beside the gap of the simulated plant."
+  return std::isfinite(run.simulated_gap) ? "There is no estimate beside the gap of the simulated plant."
                                           : "The true gap is not known here.";
 }
 

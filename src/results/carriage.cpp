@@ -29,7 +29,7 @@ constexpr Carriage kByMjcf[] = {
      "both directions, the rest needs qfrc_applied in your loop",
      "viscous_ratio"},
     {"stribeck_friction", kNearly,
-     "frictionloss of the level at speed; what break-away takes beyond it needs MuJoCo 3.7 (dcmotor with "
+     "frictionloss of the level at speed; what break-away needs beyond it calls for MuJoCo 3.7 (dcmotor with "
      "lugre)"},
     {"presliding_friction", kNearly,
      "frictionloss of the level; the bristle needs MuJoCo 3.7 (dcmotor with lugre)"},

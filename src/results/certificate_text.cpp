@@ -52,12 +52,11 @@ std::string limits_list(const Certificate& c) {
   std::string text;
   for (const StepLimits& l : c.limits) {
     if (stands_all(c, l))
-      text +=
-          fmt::format("- {}: the largest step that it stands is at least {}, the largest that was tried; ",
-                      l.integrator, in_milliseconds(l.largest));
+      text += fmt::format("- {}: the largest stable step is at least {}, the largest that was tried; ",
+                          l.integrator, in_milliseconds(l.largest));
     else
       text += fmt::format(
-          "- {}: the largest step that it stands is {} ({}); ", l.integrator, in_milliseconds(l.largest),
+          "- {}: the largest stable step is {} ({}); ", l.integrator, in_milliseconds(l.largest),
           l.against_itself ? "beyond, it leaves its own motion at the finest step by a tenth of the travel; "
                              "from the model it is farther than that at any step"
                            : "beyond, the error exceeds a tenth of the travel");

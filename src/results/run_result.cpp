@@ -199,7 +199,7 @@ Json result_schema() {
     properties[key]["description"] = text;
   };
   describe(estimate, "smallest_visible_gap_rad",
-           "smallest gap that would have shown, told of loads of 0.3 of the motor's inertia and more, by "
+           "smallest gap that would have shown, for loads of 0.3 of the motor's inertia and more, by "
            "none of 0.1 "
            "and more; null where it is not known, and where it is no smaller than a gap that shows");
   describe(

@@ -94,7 +94,7 @@ std::string why_not_together(const fs::path& folder, const char* result, const s
   if (what.empty()) return "";
   const bool diagnosis = std::string_view(result) == "diagnosis.json";
   return std::string("The ") + (diagnosis ? "diagnosis" : "estimate") +
-         " that stood in this folder was dropped, as it was made from " + what + ".";
+         " in this folder was dropped, as it was made from " + what + ".";
 }
 
 void require_same_data(const fs::path& folder, const ReportedData& data) {

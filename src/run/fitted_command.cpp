@@ -154,11 +154,11 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
     return {controller,
             {},
             "the recordings do not determine the controller that was to be estimated, and the diagnosis "
-            "takes as known what a fit of the model as it is came to, all torques in proportion: " +
+            "holds what a fit of the model as it is came to, all torques in proportion: " +
                 numbers + confounded_with(found, c.coordinates)};
   return {
       controller, starting_at(*c.controller, controller),
-      "the controller is estimated anew with each step of the diagnosis; fitted with the model as it is: " +
+      "the controller is estimated again with each step of the diagnosis; fitted with the model as it is: " +
           numbers};
 }
 
@@ -172,7 +172,7 @@ std::string controller_found(const Configuration& c, const Diagnosis& d,
                                              : "the controller with what the diagnosis has added: ";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   return when + numbers_told(found, unknown ? Standing::kUnestablished : Standing::kStands) +
-         "; these are of a last fit" + (unknown ? "" : ", which tells their intervals") +
+         "; these are of a last fit" + (unknown ? "" : ", which has their intervals") +
          ", and `fitted.yaml` has " + numbers_written(*d.fitted.controller) + " of the search" +
          (is_determined(found) ? "" : confounded_with(found, c.coordinates)) +
          (lacks_something(found) ? confounded_with_what_is_missing(c, d, fitted) : "");

@@ -52,7 +52,7 @@ std::string other_way_round(const Configuration& c, const DiagnosisRecordings& r
   const std::string fitted = listed(c.recording->files), held_out = listed(c.recording->held_out);
   return with_input_unit(
       fmt::format("{}, held out, asks more of the drive than {}, which is fitted ({}): the model is judged "
-                  "where it was not fitted, which can take far longer and name something else; the other way "
+                  "where it was not fitted, which can last far longer and name something else; the other way "
                   "round (file: {}, held_out: {}) is worth a diagnosis, too.",
                   held_out, fitted, farther, held_out, fitted),
       c.input_facts());
@@ -65,7 +65,8 @@ std::string excluded_words(const Configuration& c, const Diagnosis& d) {
   std::vector<std::string> names;
   for (const std::string& effect : c.excluded) names.push_back(readable(effect));
   return fmt::format(
-      "{} {} no candidate, as was asked for (exclude): if that is missing, something else stands for it.",
+      "{} {} no candidate, as was asked for (exclude): if that is missing, something else is named in its "
+      "place.",
       names.size() > kNamed ? fmt::format("{} effects of the catalogue", names.size())
                             : fmt::format("{}", fmt::join(names, ", ")),
       names.size() > 1 ? "were" : "was");
@@ -184,7 +185,7 @@ DiagnosisOutcome run_diagnosis(const Configuration& given, const DiagnosisOption
         [&] { return internal::run::compare_simulated(c, recordings, simulated, d, options); });
     if (!result.simulated)
       d.warnings.emplace_back(
-          "stopped before the simulator was looked at to the end: nothing is told of it.");
+          "stopped before the simulator was looked at to the end: nothing is said of it.");
   }
   ask_further(c, recordings.train.recordings.front().motor_trace(), options, d);
   put_into_words(d, c.coordinates);  // once more: what would decide is known now

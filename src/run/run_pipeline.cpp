@@ -202,7 +202,7 @@ void estimate(const Configuration& c, const Estimators& wanted, const LoadedReco
   RunResult& r = out.result;
   std::vector<std::string> notes;  // of the detector
   if (wanted.model_free) progress("model-free detector");
-  if (wanted.reference) progress("reference fit");
+  if (wanted.reference) progress("fitting the model");
   const auto begin = Clock::now();
   const auto fitted = [&] { return fit(traces_of(r.recordings), c.reference_model(), c.fit); };
   parallel_for(2, threads, [&](std::size_t which) {

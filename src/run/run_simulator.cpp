@@ -40,10 +40,10 @@ void note_start(const Recording& simulated, const Recording& drive, Coordinates 
   const std::vector<double>&begun = simulated.position(), &recorded = drive.position();
   const auto [low, high] = std::minmax_element(recorded.begin(), recorded.end());
   if (std::abs(begun.front() - recorded.front()) <= kFarStart * (*high - *low)) return;
-  warnings.push_back(fmt::format(
-      "{} begins at x1 = {}, the drive at {}: what is told of its error holds that, begin it where {} does",
-      simulated.file, coordinates.thousandths(begun.front()), coordinates.thousandths(recorded.front()),
-      drive.file));
+  warnings.push_back(
+      fmt::format("{} begins at x1 = {}, the drive at {}: its error contains that; begin it where {} does",
+                  simulated.file, coordinates.thousandths(begun.front()),
+                  coordinates.thousandths(recorded.front()), drive.file));
 }
 
 /// A position in another unit than the recording's is this many times off.

@@ -77,7 +77,7 @@ Remark load_pushed() {
   return {
       "load_pushed",
       "where the motion turns round, a force on the load (an unbalance, a spring, a friction that springs "
-      "back) drives it through the gap, too; take that force away, or turn round where it is small"};
+      "back) drives it through the gap, too; remove that force, or reverse where it is small"};
 }
 Remark contact_tears() {
   return {
@@ -216,7 +216,7 @@ Remark loop_not_asked_for() {
 }
 Remark locked_without_loop(const Remark& why) {
   return Remark("locked_without_loop",
-                "the output is locked, so that no impact shows, and no loop tells the gap: ") +
+                "the output is locked, so that no impact shows, and no loop gives the gap: ") +
          why +
          Remark("advice", "; ramp the torque slowly to and fro beyond the friction, three times or more");
 }
@@ -228,7 +228,7 @@ Remark locked_with_bound() {
 }
 Remark no_flank() {
   return {"no_flank",
-          "x1 lies at zero torque where it turns: the loop has no loaded flank to tell lost motion by"};
+          "x1 lies at zero torque where it turns: the loop has no loaded flank to read lost motion from"};
 }
 Remark holds_gap(double lost_motion, double gap) {
   return {"holds_gap",
@@ -250,7 +250,7 @@ Remark lost_motion_means(LostMotionCause cause, double free_run, double alone, b
     return Remark("friction_and_compliance",
                   "friction and compliance: x1 goes along with the torque and runs free nowhere") +
            differ;
-  return Remark("open", "whether a gap or friction and compliance make it up cannot be told here") + differ;
+  return Remark("open", "whether it is a gap or friction and compliance does not show here") + differ;
 }
 Remark hysteresis_hides(std::span<const Play> levels, double visible, double travel) {
   return Remark("hysteresis_hides",

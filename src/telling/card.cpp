@@ -70,7 +70,7 @@ Fact how_without_model(const Diagnosis& d) {
   const bool on_load = (d.model_gap && d.model_gap->encoder == EncoderSide::kLoad) ||
                        (!d.traces.empty() && d.traces.front().encoder == EncoderSide::kLoad);
   return word(
-      "how", on_load ? "that takes the motor's position, which is not recorded" : "`gapscope detect CONFIG`");
+      "how", on_load ? "that needs the motor's position, which is not recorded" : "`gapscope detect CONFIG`");
 }
 
 /// Of a gap that a diagnosis does not estimate: who tells it.

@@ -159,7 +159,8 @@ Told step_to_establish(const CardFacts& f, const Card& card) {
 
 Told step_without_diagnosis(const CardFacts& f) {
   const bool good = f.answer != nullptr && f.answer->trust == AnswerTrust::kGood;
-  return {{good ? "next.diagnose.gap_known" : "next.diagnose"}};
+  if (good) return {{"next.diagnose.gap_known"}, {"next.diagnose.too"}};
+  return {{"next.diagnose"}};
 }
 
 /// The experiment that would decide, where one separates what these recordings do not, or where its absence
@@ -177,7 +178,11 @@ Told next_of(const CardFacts& f, const Card& card) {
   if (card.good_enough && *card.good_enough) return {{"next.within_tolerance"}};
   if (f.diagnosis != nullptr && f.diagnosis->stopped) return {{"next.finish"}};
   if (Told gap = f.diagnosis != nullptr ? step_to_the_gap(f) : Told(); !gap.empty()) return gap;
-  if (Told step = step_of_the_answer(f); !step.empty()) return step;
+  if (Told step = step_of_the_answer(f); !step.empty()) {
+    if (f.diagnosis == nullptr && step.front().code != "next.diagnose.lacks")
+      step.push_back({"next.diagnose.too"});
+    return step;
+  }
   if (f.diagnosis == nullptr) return step_without_diagnosis(f);
   const Diagnosis& d = *f.diagnosis;
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;

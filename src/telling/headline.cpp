@@ -119,7 +119,7 @@ std::string headline_of(const MismatchPlace& place, Coordinates coordinates, Enc
   const std::string one_way = one_way_words(place);
   if (told.empty())
     put(one_way.empty() ? "has no clear pattern in angle, speed, input or time"
-                        : "has no pattern that these recordings tell");
+                        : "has no pattern that these recordings show");
   const std::string text = fmt::format("{}", fmt::join(told, ", and "));
   return one_way.empty() ? text : text + "; " + one_way;
 }

@@ -84,7 +84,7 @@ std::string implicitly_damped(const SimulatorRow& row, const std::vector<Simulat
         step_of_solver(2.0 * (inertia.simulator - inertia.drive) / other.numbers.front().simulator, dt);
     if (step > 0.0)
       return fmt::format(
-          " (an integrator that takes damping implicitly, as MuJoCo's Euler, adds half a step of it to the "
+          " (an integrator that treats damping implicitly, as MuJoCo's Euler, adds half a step of it to the "
           "inertia: this much at a step of {:.2g} ms)",
           1e3 * step);
   }
@@ -95,8 +95,8 @@ std::string implicitly_damped(const SimulatorRow& row, const std::vector<Simulat
 std::string ahead_by_half_a_step(double ahead, double dt) {
   const double step = step_of_solver(2.0 * ahead, dt);
   return step > 0.0 ? fmt::format(
-                          ", as a semi-implicit Euler method at a step of {:.2g} ms leaves it, being "
-                          "half a step ahead",
+                          ", as a semi-implicit Euler method at a step of {:.2g} ms leaves it, being half a "
+                          "step ahead",
                           1e3 * step)
                     : "";
 }

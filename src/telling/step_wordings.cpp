@@ -7,61 +7,52 @@ constexpr Wording kSteps[] = {
     {"next.within_tolerance", "Nothing: this is within your tolerance."},
     {"next.nothing", "Nothing."},
     {"next.finish", "Run `gapscope diagnose CONFIG` to its end."},
-    {"next.diagnose.gap_known", "Nothing more for the gap.",
-     "Nothing more for the gap; `gapscope diagnose CONFIG` tells where the model and the drive differ, and "
-     "why."},
+    {"next.diagnose.gap_known", "Nothing more for the gap."},
+    {"next.diagnose.too", "To see where model and drive differ, and why: `gapscope diagnose CONFIG`."},
     {"next.diagnose",
-     "Run `gapscope diagnose CONFIG`: it tells where the model and the drive differ, and why."},
+     "Run `gapscope diagnose CONFIG`: it shows where the model and the drive differ, and why."},
     {"next.diagnose.lacks",
      "Run `gapscope diagnose CONFIG`: it finds what the model still lacks, such as a delay, cogging or "
-     "another "
-     "friction law."},
+     "another friction law."},
     {"next.model_gap",
      "Put a gap into the model first: write the configuration again with `gapscope init ... --model gap` "
-     "(and "
-     "the motor's own inertia, `--inertia`, where its data sheet has it), and diagnose that."},
+     "(and the motor's own inertia, `--inertia`, where its data sheet has it), and diagnose that."},
     {"next.read_gap",
      "Read the gap with what was found in the model: `gapscope run CONFIG --model-from DIR/fitted.yaml -o "
      "DIR_gap`."},
     {"next.estimate",
-     "Let the fit estimate what the configuration holds ({held}: {estimate}), and diagnose again: where such "
-     "a "
-     "number is wrong, effects take its place."},
+     "Let the fit estimate what the configuration holds ({held}: {estimate}), and diagnose again: while such "
+     "a number is wrong, effects make up for it."},
     {"next.swap",
      "Swap `file` and `held_out` and diagnose again: the recording that is held out now moves more, and "
-     "shows "
-     "more when it is fitted."},
+     "shows more when it is fitted."},
     {"next.go_on",
-     "[{first} ]`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more` goes on from "
-     "what was found."},
+     "[{first} ]`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more` goes on from what was "
+     "found."},
     {"next.do_not_rely",
      "Do not rely on `DIR/fitted.yaml` yet: {left} of the {torque} is unexplained with all that was found. "
-     "Record "
-     "another motion ({motion})[, or {swap}], and diagnose again.",
+     "Record another motion ({motion})[, or {swap}], and diagnose again.",
      "Do not rely on `DIR/fitted.yaml` yet: {left} of the {torque} is unexplained with all that was found "
      "({times} times {floor}). Record another motion ({motion})[, or {swap}], and diagnose again."},
     {"next.no_nearer",
      "Do not simulate with `DIR/fitted.yaml`: the motion comes no nearer with {added?what was added|all that "
-     "was "
-     "added}. Record another motion ({motion}), and diagnose again."},
+     "was added}. Record another motion ({motion}), and diagnose again."},
     {"next.loop", "Simulate with `DIR/fitted.yaml`, goal in and position out."},
     {"next.simulate", "Simulate with `DIR/fitted.yaml`[, which has {addition} in it]."},
     {"next.simulate.open",
-     "Simulate with `DIR/fitted.yaml`: it predicts best, whether or not each addition is a "
-     "real cause."},
+     "Simulate with `DIR/fitted.yaml`: it predicts best, whether or not each addition is a real cause."},
     {"next.simulate.drifts",
      "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it is up to {after} off, "
-     "without "
-     "what was added {before}."},
+     "without what was added {before}."},
     {"next.simulate.runs_away",
      "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it runs away."},
     {"next.short_motions",
      "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it drifts by {drift} of "
-     "the "
-     "travel."},
+     "the travel."},
     {"next.numbers", "Simulate with the numbers of `DIR/fitted.yaml`."},
-    {"next.export", "`gapscope export DIR --to {format} -o DIR_{format}` takes {what} to other simulators."},
-    {"next.export.any", "`gapscope export` takes {what} to other simulators."},
+    {"next.export",
+     "`gapscope export DIR --to {format} -o DIR_{format}` writes {what} for other simulators."},
+    {"next.export.any", "`gapscope export` writes {what} for other simulators."},
     {"next.export.loses", "",
      "`gapscope export` loses a part of {lost} in every format; certificate.md says how much."},
     {"next.settle", "To settle the cause, record another motion ({motion}) and diagnose again with that."},
@@ -80,24 +71,23 @@ constexpr Wording kSteps[] = {
      "Record {input} for {duration} s: it would separate the two causes by {by:,}."},
     {"next.experiment.contained", "If {truth} is the cause, no input can tell, because {rival} contains it."},
     {"next.experiment.travel",
-     "The models travel {travel} in it: see first that stops, speed and temperature of the drive allow "
+     "The models travel {travel} in it: check first that stops, speed and temperature of the drive allow "
      "that."},
     {"next.experiment.none", "No input within the limits would tell {rivals:from} by one σ of the encoder."},
     {"next.experiment.limits",
-     "Widen the limits where the drive may move farther (`next_experiment:` of the configuration), or take "
+     "Widen the limits where the drive may move farther (`next_experiment:` of the configuration), or use "
      "another load or a finer encoder."},
     {"next.experiment.unplayable", "No input within the limits can be played on these models."},
     {"next.experiment.goals",
      "Record other goals (faster or slower ones, another amplitude), or the same ones at another gain of the "
      "controller, and hold that recording out: these do not tell {rivals:from}."},
-    {"next.see_to_recording", "See to the recording first: {advice}."},
+    {"next.see_to_recording", "Mend the recording first: {advice}."},
     {"next.estimate_gap",
      "Let the fit find the gap (gap: {estimate}): the configuration holds it at {held}, and without a model "
-     "it "
-     "reads {read}."},
+     "it reads {read}."},
     {"next.sign",
-     "Check the sign and the unit of u (`gapscope check`): a motor without torque would predict this motion "
-     "better."},
+     "Check the sign and the unit of the input u (`gapscope check`): a motor without torque would predict "
+     "this motion better."},
     {"next.once_more",
      "Record once more at another amplitude or frequency: the estimate that stays is the one to believe."},
     {"next.without_gap",
@@ -107,7 +97,7 @@ constexpr Wording kSteps[] = {
     {"next.start_nearer.iterations",
      "Start the fit nearer to the drive (model: parameters), or raise fit: max_iterations."},
     {"next.start_nearer.unit",
-     "Start the fit nearer to the drive (model: parameters), and check the unit of u."},
+     "Start the fit nearer to the drive (model: parameters), and check the unit of the input u."},
     {"next.bound_auto.loop",
      "Set detector: bound to auto: it reads the lost-motion loop, a given bound reads impacts alone."},
     {"next.other_bound",
@@ -122,12 +112,10 @@ constexpr Wording kSteps[] = {
     {"next.advice", "For a reading without a model: {advice}."},
     {"next.free_motion",
      "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell at "
-     "the "
-     "reversals, the output free."},
+     "the reversals, the output free."},
     {"next.smaller_ramps",
      "Add ramps to half the smallest torque: the gap is at most the lost motion there, and wind-up shrinks "
-     "with "
-     "the torque."},
+     "with the torque."},
     {"next.hold_output",
      "Hold the output and record slow ramps of both directions: their lost motion is the play of all gaps "
      "together."},

@@ -10,12 +10,10 @@ constexpr Wording kWordings[] = {
      "The backlash gap 2β (full width, at x1) is {gap}, measured without a model."},
     {"gap.literal", "The backlash gap is {gap}, by S1 to S6 of the source paper.",
      "The backlash gap 2β (full width, at x1) is {gap}, by S1 to S6 of the source paper with L = {bound} "
-     "{per}; "
-     "its passages scatter by {scatter}."},
+     "{per}; its passages scatter by {scatter}."},
     {"gap.paper", "The backlash gap is {gap}, measured without a model, with the bound that was given.",
      "The backlash gap 2β (full width, at x1) is {gap}, measured without a model, with the bound that was "
-     "given "
-     "(L = {bound} {per})."},
+     "given (L = {bound} {per})."},
     {"gap.reference", "The backlash gap is {gap} by the fitted model.",
      "The backlash gap 2β (full width, at x1) is {gap} by the fitted model."},
     {"gap.diagnosis", "The backlash gap is {gap} by the model that the diagnosis has fitted.",
@@ -44,13 +42,13 @@ constexpr Wording kWordings[] = {
     {"play.bounds_gap", "Friction and compliance are a part of it, so the gap is at most that."},
     {"lost_motion", "The lost motion at zero torque is {lost}."},
     {"lost_motion.levels",
-     "The lost motion at zero torque is {small} after ramps to ±{to_small} and {large} after ramps to "
+     "The lost motion at zero torque is {small} after input ramps to ±{to_small} and {large} after ramps to "
      "±{to_large} units of u."},
     {"lost_motion.grows", "", "What grows with the torque is wind-up, not a gap."},
     {"lost_motion.gap", "Most of it is a gap."},
     {"lost_motion.friction", "It is friction and compliance."},
     {"lost_motion.open",
-     "How much of it is a gap, and how much friction and compliance, this recording does not tell."},
+     "How much of it is a gap, and how much friction and compliance, this recording does not show."},
     {"gap.at_most", "The gap is at most {limit}."},
     {"gap.at_most.if_any", "If there is one, it is at most {limit}.",
      "If there is one, it is at most {limit}, unless the load was faster than the motor."},
@@ -67,26 +65,25 @@ constexpr Wording kWordings[] = {
     {"reference.tells_none", ""},
     {"reference.why", "", "{why}"},
     {"reference.one_body", "Backlash is not examined, as the model is a single body."},
-    {"reference.gap_given", "The model took the gap as known."},
+    {"reference.gap_given", "The gap was given to the model."},
     {"gap.elsewhere", "Not estimated here; `gapscope run CONFIG` does that."},
     {"gap.one_body.as_good", "Backlash is not examined: a single body is as good as the recording.",
      "Backlash is not examined: a single body is as good as the recording. To check without a model: {how}."},
     {"gap.one_body.on_load",
-     "Backlash is not examined: with the encoder on the load only a model with a gap can tell it.",
-     "Backlash is not examined: with the encoder on the load only a model with a gap can tell it (`gapscope "
+     "Backlash is not examined: with the encoder on the load only a model with a gap can show it.",
+     "Backlash is not examined: with the encoder on the load only a model with a gap can show it (`gapscope "
      "init` with --model gap)."},
     {"gap.one_body", "Backlash is not examined, as the model is a single body.",
      "Backlash is not examined, as the model is a single body: it is neither shown nor ruled out. To check "
-     "the "
-     "recording for it: {how}."},
-    {"gap.given", "The model takes the gap as known, {gap}.",
-     "The model takes the gap as known, {gap}. For an estimate: {how}."},
+     "the recording for it: {how}."},
+    {"gap.given", "The gap was given to the model, not estimated: {gap}.",
+     "The gap was given to the model, not estimated: {gap}. For an estimate: {how}."},
     {"gap.not_determined", "The recordings do not determine the gap of the fitted model.",
      "The recordings do not determine the gap of the fitted model. Without a model: {how}."},
-    {"gap.not_followed", "The fitted model does not follow the recordings well enough to tell the gap.",
-     "The fitted model does not follow the recordings well enough to tell the gap[: it leaves {floors} times "
-     "{floor}, and a gap is told below {least} times]. Without a model: {how}."},
-    {"gap.if_recording", "This holds if the recording is what it is taken for ({doubt})."},
+    {"gap.not_followed", "The fitted model does not follow the recordings well enough to give the gap.",
+     "The fitted model does not follow the recordings well enough to give the gap[: it leaves {floors} times "
+     "{floor}, and gives a gap below {least} times only]. Without a model: {how}."},
+    {"gap.if_recording", "This holds if the recording is what it seems to be ({doubt})."},
     {"trust.good", "Trust: good."},
     {"trust.limited", "Trust: limited."},
     {"trust.limited.light_load",
@@ -94,8 +91,7 @@ constexpr Wording kWordings[] = {
      "it)."},
     {"trust.limited.floors",
      "Trust: limited (the model leaves {floors} times the encoder's noise, and the interval does not hold "
-     "what "
-     "it lacks)."},
+     "what it lacks)."},
     {"trust.limited.open", "Trust: limited (these recordings leave the gap open by {share})."},
     {"trust.limited.reading", "Trust in that reading: limited."},
     {"trust.bound", "Trust: good as an upper limit of the gap; the gap itself may be smaller."},
@@ -108,32 +104,27 @@ constexpr Wording kWordings[] = {
     {"error.not_fitted", "Not measured, as no model was fitted."},
     {"error.fit", "The fitted model, simulated freely, follows the motion to {fit} (100 % is exact)."},
     {"error.fit.departs",
-     "The fitted model, simulated freely, departs from the motion: fit {fit} (100 % is "
-     "exact)."},
+     "The fitted model, simulated freely, departs from the motion: fit {fit} (100 % is exact)."},
     {"error.fit.rejected", "It is rejected: its numbers are not to be used."},
     {"error.torque",
      "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}, {share} of what the {source}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data[ below {band} "
-     "Hz], "
-     "{share} of the {input} rms that the {source}."},
+     "Hz], {share} of the {input} rms that the {source}."},
     {"error.torque.alone", "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data."},
     {"error.torque.many",
      "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}, {times} times what the {source}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data, {times} times "
-     "the "
-     "{input} rms that the {source}."},
+     "the {input} rms that the {source}."},
     {"error.motion", "The [{refitted} ]model[ ({has})] is {off} off the held-out motion.",
      "The [{refitted} ]model[ (with {has})] is {off} off the held-out motion[ ({measure})]."},
     {"error.diverges", "The [{refitted} ]model[ ({has})] runs away from the held-out motion."},
     {"error.noise", "That is noise.",
      "That is noise: the simulated motion is {off} rms off, and the encoder's noise alone makes {floor} (up "
-     "to "
-     "{ratio} times as much counts as noise)."},
+     "to {ratio} times as much counts as noise)."},
     {"error.repeats", "That is noise.",
      "That is noise: the simulated motion is {off} rms off, and the drive itself differs from period to "
-     "period "
-     "by {floor} (up to {ratio} times as much counts as noise)."},
+     "period by {floor} (up to {ratio} times as much counts as noise)."},
     {"error.noise.torque", "That is noise."},
     {"error.floor.records", "",
      "The {parts} disagree by {floor} of this, which no one set of numbers removes."},
@@ -146,26 +137,22 @@ constexpr Wording kWordings[] = {
      "additions {after}][ ({measure})]."},
     {"error.as_configured.diverges", "",
      "With the numbers of the configuration the {judged} motion runs away; refitted it is {before} off[, "
-     "with "
-     "the additions {after}][ ({measure})]."},
+     "with the additions {after}][ ({measure})]."},
     {"error.free_run",
      "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel[; with "
-     "what "
-     "helps, up to {after}][ ({rms} rms)]."},
+     "what helps, up to {after}][ ({rms} rms)]."},
     {"error.free_run.diverges",
-     "Simulated from the first sample to the last it runs away[; with what helps it "
-     "is up to {after} off, of {travel} of travel][ ({rms} rms)]."},
+     "Simulated from the first sample to the last it runs away[; with what helps it is up to {after} off, of "
+     "{travel} of travel][ ({rms} rms)]."},
     {"error.free_run.then_diverges",
-     "Simulated from the first sample to the last it is up to {before} off, of "
-     "{travel} of travel; with what helps it runs away."},
+     "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel; with what "
+     "helps it runs away."},
     {"error.free_run.grows", "", "Over so long a run the smallest errors grow."},
     {"error.closed_loop",
      "With its controller in the loop it is {before} rms off in position[ (travel {travel})][; with what "
-     "helps, "
-     "{after}]."},
+     "helps, {after}]."},
     {"error.closed_loop.diverges",
-     "With its controller in the loop it runs away[; with what helps it is {after} "
-     "rms off in position]."},
+     "With its controller in the loop it runs away[; with what helps it is {after} rms off in position]."},
     {"error.fitted_loop",
      "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average.",
      "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average (mean "
@@ -175,7 +162,7 @@ constexpr Wording kWordings[] = {
     {"tolerance.torque.then_within", "Outside your tolerance of {limit}, within it with what helps."},
     {"tolerance.torque.open", "Your tolerance of {limit} of the {torque} cannot be judged."},
     // Where.
-    {"by_diagnose", "Told by `gapscope diagnose CONFIG`."},
+    {"by_diagnose", "Not looked for yet: `gapscope diagnose CONFIG` does that."},
     {"where.nowhere", "Nowhere: what is left has no pattern."},
     {"where.pattern", "The missing {torque} {where}."},
     {"where.short", "The held-out motion covers {turns} turns, less than one period."},
@@ -183,8 +170,7 @@ constexpr Wording kWordings[] = {
     {"cause.none", "Nothing is missing that this recording could show."},
     {"cause.numbers",
      "No effect is missing that this recording could show; some numbers of the configuration were off, and "
-     "are "
-     "fitted now."},
+     "are fitted now."},
     {"cause.stopped", "Not known: the search was stopped before its end."},
     {"cause.established", "Established[ once {open} {open?is|are} in the model]: {causes}.",
      "Established[ once {open} {open?is|are} in the model]: {causes:+}."},
@@ -192,18 +178,16 @@ constexpr Wording kWordings[] = {
      "Likely, not confirmed[, with {open} in the model]: {causes:+}. ({rival} explains nearly as much.)"},
     {"cause.likely.balance", "Likely, not confirmed[, with {open} in the model]: {causes}.",
      "Likely, not confirmed[, with {open} in the model]: {causes:+}. The {torque} balance shows it; the "
-     "{judged}, restarted again and again, cannot tell."},
+     "{judged}, restarted again and again, cannot decide."},
     {"cause.likely.recordings", "Established on these recordings[, with {open} in the model]: {causes}.",
      "Established on these recordings[, with {open} in the model]: {causes:+}. The {judged} of another "
-     "recording "
-     "may not show it."},
+     "recording may not show it."},
     {"cause.group", "One of these is missing[ once {open} {open?is|are} in the model]: {group:or}.",
      "One of these is missing[ once {open} {open?is|are} in the model]: {group:or}. These recordings cannot "
      "tell which; `fitted.yaml` has {first}."},
     {"cause.group.likely", "One of these is likely to be missing: {group:or}.",
      "One of these is likely to be missing: {group:or}. These recordings cannot tell which; `fitted.yaml` "
-     "has "
-     "{first}."},
+     "has {first}."},
     {"cause.group.one_law", "One of these is missing: {group:or}.",
      "One of these is missing: {group:or}. No recording can tell which: dry friction that differs with the "
      "direction is the same as equal friction and a constant torque; `fitted.yaml` has {first}."},
@@ -236,12 +220,10 @@ constexpr Wording kWordings[] = {
     {"simulator.alike", "Your simulator lacks nothing that these recordings would show."},
     {"simulator.not_followed",
      "What differs is not known: the model with all effects of both leaves {floors} floors on your "
-     "simulator, "
-     "which it does not follow."},
+     "simulator, which it does not follow."},
     {"simulator.hidden",
      "No row differs, but the model with all effects of both leaves {floors} floors on the drive: what "
-     "differs "
-     "may hide there."},
+     "differs may hide there."},
     {"simulator.off",
      "What differs is not known: no row does, though your simulator is {floors} floors off the drive."},
     {"simulator.not_fitted",
@@ -250,9 +232,8 @@ constexpr Wording kWordings[] = {
     {"simulator.held_out", "Over the held-out input your simulator is {off} rms off the drive."},
     {"simulator.differs", "Your simulator differs from the drive: {rows:;}."},
     {"simulator.stand_in",
-     "Over the held-out input it is {off} rms off the drive. A model fitted to it stands in for it (it "
-     "misses it "
-     "by {miss})."},
+     "Over the held-out input it is {off} rms off the drive. The comparison uses a model fitted to it, which "
+     "is {miss} off it."},
     {"simulator.mended",
      "Its error, {error}, falls to {mended} with {first} mended, by {share}[; with all {rows} rows it is "
      "{all}]."},
@@ -268,8 +249,7 @@ constexpr Wording kWordings[] = {
      "Nothing that these recordings establish; `fitted.yaml` has no addition."},
     {"helps.rungs", "The missing {torque} falls from {before} to {left:then}.",
      "The missing {torque} falls from {before} to {left:+then}; in all from {share#} to {share_after} of "
-     "what "
-     "the {source}."},
+     "what the {source}."},
     {"helps.motion_rungs", "The {error} falls from {before} to {left:then}.",
      "The {error}[ ({measure})] falls from {before} to {left:+then}."},
     {"helps.torque", "{added} {added?brings|bring} the missing {torque} down from {before#} to {after}.",
@@ -294,19 +274,16 @@ constexpr Wording kWordings[] = {
     {"helps.numbers", "The fit has changed {brief}.", "Of your own numbers the fit has changed {changes}."},
     {"helps.scale", "",
      "Inertia and damping are both {factor} times those of the configuration, which the recordings cannot "
-     "tell "
-     "from a torque constant (or gear ratio) that is {share} {way}: where the inertia is certain, give it as "
-     "a "
-     "bare number, which is held, and set torque_constant: {estimate}."},
+     "separate from a torque constant (or gear ratio) that is {share} {way}: where the inertia is certain, "
+     "give it as a bare number, which is held, and set torque_constant: {estimate}."},
     {"helps.as_good", "Nothing is needed: the model is as good as the recording."},
     {"helps.as_good.other_numbers",
      "Other numbers than those of the configuration, and nothing more: {brief}.",
      "Other numbers than those of the configuration, and nothing more: {changes}; `fitted.yaml` has them and "
-     "is "
-     "as good as the recording."},
+     "is as good as the recording."},
     {"helps.simulator",
-     "Your simulator's error, {error}, falls[ to {mended} with {first} mended][, to "
-     "{all_mended} with all {rows} rows that differ]."},
+     "Your simulator's error, {error}, falls[ to {mended} with {first} mended][, to {all_mended} with all "
+     "{rows} rows that differ]."},
 };
 
 }  // namespace

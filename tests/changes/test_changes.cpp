@@ -102,9 +102,8 @@ TEST(Changes, NumbersOfARejectedModelAreLeftOutAndTheReasonIsTold) {
   EXPECT_EQ(q.changes[0].reason, ChangeReason::kUntold);
   EXPECT_EQ(quantity(c, "model_free", "gap").changes[0].verdict, ChangeVerdict::kChanged);
   ASSERT_FALSE(c.warnings.empty());
-  EXPECT_THAT(c.warnings.front(),
-              HasSubstr("b: the numbers of the reference are left out, its model is rejected. "
-                        "The model misses 65 %"));
+  EXPECT_THAT(c.warnings.front(), HasSubstr("b: its fitted numbers are left out, the model is rejected. "
+                                            "The model misses 65 %"));
 }
 
 TEST(Changes, AnIntervalWiderThanItsStandardErrorCounts) {

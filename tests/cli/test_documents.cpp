@@ -82,7 +82,7 @@ TEST(Documents, ThePictureOfTheReadmeIsOfWhatIsRead) {
   const auto detect = place.run("detect ramps.yaml");
   const std::string readme = std::regex_replace(text_of(kRoot / "README.md"), std::regex("\n"), " ");
   EXPECT_THAT(detect.out,
-              HasSubstr("lost motion at zero torque is 33.7 mrad after ramps to ±3.95 and 37.5 mrad"));
+              HasSubstr("lost motion at zero torque is 33.7 mrad after input ramps to ±3.95 and 37.5 mrad"));
   EXPECT_THAT(detect.out, HasSubstr("gap is at most 35.1 mrad"));
   EXPECT_THAT(readme, HasSubstr("33.7 mrad of play after small ramps, 37.5 mrad after large ones"));
   EXPECT_THAT(readme, HasSubstr("the gap is at most 35 mrad"));

@@ -106,7 +106,7 @@ TEST(InitDoubts, WhereAnArmHangsIsReadOffTheRecording) {
   const auto [quiet, zero] = written("zero");
   EXPECT_THAT(quiet, Not(HasSubstr("hangs_at")));
   EXPECT_THAT(zero, HasSubstr("the arm hangs down at about 0, as the recording shows"));
-  EXPECT_THAT(written("off").second, HasSubstr("the recording does not tell: else add hangs_at:"));
+  EXPECT_THAT(written("off").second, HasSubstr("the recording does not show: else add hangs_at:"));
   EXPECT_THAT(place.run("init --help").out, HasSubstr("anchor: hangs_at"));
 }
 
@@ -162,7 +162,7 @@ TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_THAT(told.out, Not(HasSubstr("GUESS")));
   const std::string yaml = testing::text_of(place.folder() / "told.yaml");
-  EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172  # N m per unit of u, as told"));
+  EXPECT_THAT(yaml, HasSubstr("torque_constant: 0.172  # N m per unit of u, as given"));
   EXPECT_THAT(yaml, HasSubstr("motor_inertia: {value: 0.0008"));  // of 8.78e-4 kg m^2
   EXPECT_THAT(yaml, Not(HasSubstr("over torque_constant")));
   EXPECT_EQ(place.run(init + "--gear-ratio 2 -o geared.yaml").status, 0);
@@ -178,7 +178,7 @@ TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
   EXPECT_EQ(place.run("init r.csv --model gap --torque-constant 0.172 --inertia 8.8e-4 -o gap.yaml").status,
             0);
   EXPECT_THAT(testing::text_of(place.folder() / "gap.yaml"),
-              HasSubstr("motor_inertia: 0.00088  # kg m^2, as told"));
+              HasSubstr("motor_inertia: 0.00088  # kg m^2, as given"));
   EXPECT_NE(place.run(init + "--mass 0.5 --arm 0.1 -o anchored.yaml").status, 0);
 }
 

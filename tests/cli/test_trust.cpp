@@ -71,9 +71,9 @@ TEST(Trust, AReadingOfAPositionInAnotherUnitThanDeclaredIsNotGood) {
   ASSERT_EQ(asked.status, 0) << asked.err;
   EXPECT_THAT(asked.err, HasSubstr("warning: degrees.csv: unit of x1: x1 steps by 360/262144: degrees?"));
   EXPECT_THAT(asked.out,
-              HasSubstr("if the recording is what it is taken for (x1 steps by 360/262144: degrees?). "
+              HasSubstr("if the recording is what it seems to be (x1 steps by 360/262144: degrees?). "
                         "Trust: limited."));
-  EXPECT_THAT(asked.out, HasSubstr("next        See to the recording first: declare it"));
+  EXPECT_THAT(asked.out, HasSubstr("next        Mend the recording first: declare it"));
   EXPECT_THAT(told.out, HasSubstr("Trust: good."));
   EXPECT_THAT(told.err, Not(HasSubstr("degrees?")));
 }
@@ -117,11 +117,8 @@ TEST(Trust, TheAnswerHeadsTheTerminalTheReportAndTheResult) {
   EXPECT_THAT(report, ::testing::StartsWith("# right\n\n> right.csv was made by `gapscope simulate`, "));
   EXPECT_THAT(report, HasSubstr("of a real drive.\n\n- **Gap:** " + card["gap"].get<std::string>() + "\n"));
   std::string all;
-  for (std::string line : {"gap", "mismatch", "place", "next"}) {
-    const bool told = line != "place";  // what nobody has diagnosed is one line
-    const std::string text =
-        told ? card[line] : "Where, cause and what helps: run `gapscope diagnose CONFIG`.";
-    if (!told) line = "diagnosis";
+  for (std::string line : {"gap", "mismatch", "next"}) {
+    const std::string text = card[line];
     if (line == "mismatch") line = "model error";
     line.resize(12, ' ');
     all += line + text + "\n";
@@ -154,7 +151,7 @@ TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
   EXPECT_EQ(compared.status, 0) << compared.err;
   EXPECT_THAT(compared.out, HasSubstr("left out, the model is rejected"));
   EXPECT_THAT(compared.out, Not(HasSubstr(", changed")));
-  EXPECT_THAT(compared.err, HasSubstr("the numbers of the reference are left out, its model is rejected."));
+  EXPECT_THAT(compared.err, HasSubstr("its fitted numbers are left out, the model is rejected."));
 }
 
 TEST(Trust, BothEstimatorsAreComparedOnlyWhereBothAreTrusted) {

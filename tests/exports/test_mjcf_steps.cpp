@@ -42,7 +42,7 @@ TEST(MjcfSteps, TheFileHasOneThatItStandsAndSaysWhy) {
   ASSERT_NE(limits, c.limits.end());
   ASSERT_LT(limits->largest, 1e-4) << "or this is no test";
   EXPECT_DOUBLE_EQ(timestep_of(drive.files[0].text), 5e-5);
-  const std::string note = "timestep is 0.05 ms: the largest step that it stands by RK4 is ";
+  const std::string note = "timestep is 0.05 ms: the largest stable step of RK4 is ";
   for (const ExportedFile& file : drive.files) EXPECT_THAT(file.text, HasSubstr(note)) << file.name;
   EXPECT_THAT(c.warnings, ::testing::Contains(HasSubstr(note))) << "which the terminal prints";
   const DriveExport calm = export_drive(rig_configuration(", mass_ratio: 0"), ExportFormat::kMjcf);

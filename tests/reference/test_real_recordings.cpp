@@ -108,7 +108,7 @@ TEST(RealRecordings, AGapThatOnlyLargeRampsShowIsNoGap) {
   GAPSCOPE_NEEDS_DATA();
   const FitSummary summary = fit_reducer("splitpreload3_pos1", {0.0, 1e3});
   EXPECT_FALSE(summary.find("gap")->identifiable);
-  EXPECT_NE(summary.full_report().find("takes for a gap is something else"), std::string::npos)
+  EXPECT_NE(summary.full_report().find("reads as a gap is something else"), std::string::npos)
       << summary.full_report();
 }
 

@@ -127,7 +127,7 @@ TEST(ChangesReport, SeveralUnitsLieApartBesideWhatAFitDoes) {
 TEST(ChangesReport, OfReportsWithoutAGapHasNoFigure) {
   DriveChanges all = sample_changes();
   for (DriveQuantity& q : all.quantities) q.key = "load_damping", q.unit = "N m s/rad";
-  EXPECT_THAT(internal::report::gap_over_recordings(all).missing, HasSubstr("no report tells a gap"));
+  EXPECT_THAT(internal::report::gap_over_recordings(all).missing, HasSubstr("no report gives a gap"));
   all.lead = -1;
   EXPECT_THAT(changes_text(all), Not(HasSubstr("mrad")));
 }

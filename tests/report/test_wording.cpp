@@ -53,7 +53,7 @@ TEST(Headline, TellsEveryVerdict) {
   RunResult run = sample_run({.samples = 6000});
   EXPECT_EQ(
       estimates_text(run),
-      "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Model-based reference: 18.828 mrad "
+      "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Fitted model: 18.828 mrad "
       "(95 %: 18.799 to 18.858). They agree: the difference is 0.0846 mrad, its standard deviation 0.151 "
       "mrad.");
   run.comparison->agree = false;
@@ -91,10 +91,9 @@ TEST(Headline, BeginsWithTheAnswerWhereThereIsOne) {
 TEST(Headline, OfARejectedModelHasNoIntervalAndSaysWhatItMisses) {
   RunResult run = rejected_run();
   run.model_free.reset(), run.comparison.reset();
-  EXPECT_EQ(
-      estimates_text(run),
-      "The model-based reference is rejected, its gap (18.8 mrad) is not to be believed: The model misses "
-      "65 % of what the torque does to the motion.");
+  EXPECT_EQ(estimates_text(run),
+            "The fitted model is rejected, its gap (18.8 mrad) is not to be believed: The model misses "
+            "65 % of what the torque does to the motion.");
 }
 
 TEST(Headline, OfAFitThatDidNotConvergeHasNoInterval) {

@@ -71,7 +71,7 @@ std::string told(double friction) {
 
 TEST(DoubtfulDelay, IsToldWithWhatItIsWithoutTheBeginning) {
   EXPECT_THAT(told(0.0),
-              AllOf(HasSubstr("log.csv begins with its input on while the motor still stands"),
+              AllOf(HasSubstr("log.csv begins with its input on while the motor is still at rest"),
                     HasSubstr("window: [0.1, 1.999]"),
                     ContainsRegex("the input delay then comes out as (5.99|6)[0-9.]* ms, not 6.0[78]")));
 }

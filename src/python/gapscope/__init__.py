@@ -109,7 +109,7 @@ def detect(configuration=None, recording=None, *, output=None, svg=False, settin
 
 
 def fit(configuration, recording=None, *, output=None, svg=False, settings=None, axis=None, progress=None):
-    """The model-based reference alone: parameters of the drive; ["reference"] is its answer. As `run`."""
+    """The fit of a model alone: parameters of the drive; ["reference"] is its answer. As `run`."""
     return _estimate(False, True, configuration, recording, output, svg, settings, axis, progress)
 
 
