@@ -85,7 +85,7 @@ void add_drive_export(CommandLine& app) {
       "The certificate says of every number and effect whether the target has it exactly, approximately or "
       "not\n"
       "and why; how far the target's x1 is from gapscope's simulator under the same input at several steps;\n"
-      "the largest step that it stands; and what the format's own defaults would do. What a diagnosis in "
+      "the largest stable step; and what the format's own defaults would do. What a diagnosis in "
       "SOURCE\n"
       "left unexplained is stated there and in the head of the model.\n"
       "SOURCE with recording: needs every number of its model, and is judged under the recorded input; a\n"

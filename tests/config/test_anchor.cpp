@@ -68,7 +68,7 @@ TEST(Anchor, ComesBackFromTheResolvedText) {
 TEST(Anchor, IsRefusedWhereItCannotHold) {
   EXPECT_THAT(refusal([] { anchored("{mass: 0.49}"); }), HasSubstr("arm"));
   EXPECT_THAT(refusal([] { anchored("{arm: 0.1, inertia: 1}"); }),
-              HasSubstr("c.yaml:3: anchor.arm stands without a mass"));
+              HasSubstr("c.yaml:3: anchor.arm is given without a mass"));
   EXPECT_THAT(refusal([] { anchored("{}"); }), HasSubstr("anchor"));
   EXPECT_THAT(refusal([] { anchored("{inertia: 1}", "motor_inertia: 1"); }),
               HasSubstr("stands beside model.parameters.motor_inertia"));

@@ -81,7 +81,7 @@ TEST(Controller, IsRefusedWhereItCannotServe) {
               HasSubstr("c.yaml:2: recording.columns has a target, expected controller:"));
   EXPECT_THAT(
       refusal([] { commanded("{input: duty}", "{position: {gain: 1}}"); }),
-      HasSubstr("c.yaml:4: controller stands without the target, expected recording: columns: {target"));
+      HasSubstr("c.yaml:4: controller is given without the target, expected recording: columns: {target"));
   EXPECT_THAT(refusal([] { commanded("{target: goal}", "{force: {gain: 1}}"); }),
               HasSubstr("c.yaml:4: unknown key 'force' in controller, expected one of position, velocity"));
   EXPECT_THAT(refusal([] { commanded("{target: goal}", "{position: {derivative: 1}}"); }), HasSubstr("gain"));

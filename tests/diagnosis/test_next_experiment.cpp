@@ -38,7 +38,7 @@ void expect_separated(const Asked& a) {
 void expect_every_input_told(const Asked& a) {
   const std::vector<std::string>& said = a.progress;
   ASSERT_GE(said.size(), a.next.tried.size());
-  EXPECT_EQ(said.front(), fmt::format("looking for the experiment that would tell, 1 of {}", said.size()));
+  EXPECT_EQ(said.front(), fmt::format("looking for the experiment that would decide, 1 of {}", said.size()));
 }
 
 void expect_within_limits(const Asked& a) {

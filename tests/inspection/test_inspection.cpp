@@ -208,7 +208,7 @@ TEST(Inspection, IrregularTimeIsANoteForFitAndDiagnoseAndNeedsAGridForTheDetecto
   EXPECT_FALSE(raw.facts.uniform);
   const Finding& time = finding(raw, "time");
   EXPECT_EQ(time.severity, Severity::kNote);
-  EXPECT_THAT(time.advice, HasSubstr("fit and diagnose take each step with its own length"));
+  EXPECT_THAT(time.advice, HasSubstr("fit and diagnose use each step with its own length"));
   EXPECT_THAT(time.advice, HasSubstr("resample: {rate: "));
   ReadOptions options;
   options.resample_rate = 900.0;

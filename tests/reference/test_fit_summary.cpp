@@ -11,7 +11,7 @@ TEST(FitSummary, ADefaultOneSaysThatNothingWasRun) {
   const FitSummary summary;
   EXPECT_FALSE(summary.converged());
   EXPECT_TRUE(std::isnan(summary.rmse));
-  EXPECT_EQ(summary.brief_report(), "reference: not run: fit() was not called.");
+  EXPECT_EQ(summary.brief_report(), "fit: not run: fit() was not called.");
   EXPECT_NE(summary.full_report().find("not run"), std::string::npos);
   EXPECT_EQ(summary.find("gap"), nullptr);
 }

@@ -38,7 +38,7 @@ DiagnosisResult beside(const SimulatorRow& row) {
 TEST(SimulatorReport, TellsInWhichOfBothAnEffectIs) {
   const std::string both = internal::report::simulator_table(beside(friction(FoundIn::kBoth, 0.05, 0.02)));
   EXPECT_TOLD(line_with(both, "| `motor_coulomb_friction` | 50.0"));
-  EXPECT_TOLD(line_with(both, "| not told apart"));
+  EXPECT_TOLD(line_with(both, "| not separated"));
   const std::string drive = internal::report::simulator_table(beside(friction(FoundIn::kDrive, 0.05, 0.0)));
   EXPECT_TOLD(line_with(drive, "| 50.0 ± 1.0"));
   EXPECT_TOLD(line_with(drive, "misses your simulator by"));

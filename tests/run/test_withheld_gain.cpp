@@ -64,7 +64,7 @@ TEST(WithheldGain, IsFoundWithWhatTheDiagnosisHasAdded) {
   const std::string said = said_of_gain({"motor_coulomb_friction", "quadratic_drag"});
   EXPECT_THAT(said, HasSubstr("with what the diagnosis has added"));
   EXPECT_THAT(said, Not(HasSubstr("confounded")));
-  EXPECT_THAT(said, HasSubstr("; these are of a last fit, which tells their intervals, and `fitted.yaml` has "
+  EXPECT_THAT(said, HasSubstr("; these are of a last fit, which has their intervals, and `fitted.yaml` has "
                               "controller.velocity.gain "));
   double gain = 0.0;
   const std::string key = "controller.velocity.gain ";
