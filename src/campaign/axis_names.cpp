@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
 #include "base/text.h"
 #include "gapscope/plant/drive.h"
+#include "gapscope/plant/effect.h"
 
 namespace gapscope::internal::campaign {
 namespace {
@@ -41,6 +43,33 @@ const DriveParameterSpec* drive_parameter_at(const std::string& path) {
   return found == std::end(kDriveParameters) ? nullptr : found;
 }
 
+std::string letters(const std::string& text) {
+  std::string kept;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c))) kept += static_cast<char>(std::tolower(c));
+  return kept;
+}
+
+/// "release" of "release_nm" in N m.
+std::string less_unit(const std::string& key, const std::string& unit) {
+  for (std::size_t at = key.find('_'); at != key.npos; at = key.find('_', at + 1))
+    if (letters(key.substr(at + 1)) == letters(unit)) return key.substr(0, at);
+  return key;
+}
+
+/// @param place  "0.contact_adhesion.release_nm"
+AxisName amount_name(const std::string& place, const std::string& whose, Coordinates coordinates) {
+  const std::string effect = place.substr(std::min(place.find('.') + 1, place.size()));
+  const std::size_t dot = std::min(effect.find('.'), effect.size());
+  const std::string name = effect.substr(0, dot), key = effect.substr(std::min(dot + 1, effect.size()));
+  if (const EffectEntry* entry = find_effect(name))
+    for (const EffectParameterSpec& spec : entry->parameters)
+      if (key == spec.key)
+        return {whose + readable(name) + ": " + readable(less_unit(key, spec.unit)),
+                coordinates.shown_unit(spec.unit)};
+  return {whose + readable(effect), ""};
+}
+
 }  // namespace
 
 AxisName axis_name(const std::string& path, Coordinates coordinates) {
@@ -50,12 +79,8 @@ AxisName axis_name(const std::string& path, Coordinates coordinates) {
     const std::string name = readable(spec->key);
     return {path.starts_with("model.") ? "model's " + name : name, coordinates.shown_unit(spec->unit)};
   }
-  if (const std::size_t at = path.find("model.effects.");
-      at != path.npos) {  // "0.contact_adhesion.release_nm"
-    const std::string place = path.substr(at + 14),
-                      effect = place.substr(std::min(place.find('.') + 1, place.size()));
-    return {(path.starts_with("model.") ? "model's " : "") + effect, ""};
-  }
+  if (const std::size_t at = path.find("model.effects."); at != path.npos)
+    return amount_name(path.substr(at + 14), path.starts_with("model.") ? "model's " : "", coordinates);
   if (path.find("excitation.") != path.npos && path.ends_with(".frequency")) return {"frequency", "Hz"};
   if (path.find("excitation.") != path.npos && path.ends_with(".amplitude")) return {"amplitude", ""};
   return {path, ""};

@@ -34,12 +34,14 @@ std::string axis_label(const Axis& axis, const std::string& unit) {
 
 constexpr double kOverhang = 60.0;  ///< by which a label may be longer than its axis [px]
 
-/// In one line, or with the unit in a second one.
+/// In one line where it is no longer than its axis, else in several, the unit in the last one.
 std::vector<std::string> label_lines(const std::string& label, double length, const Typesetter& typesetter) {
   if (label.empty()) return {};
+  if (typesetter.measure(label, kTextSize).width <= length + kOverhang) return {label};
   const std::size_t unit = label.rfind(" (");
-  if (unit == label.npos || typesetter.measure(label, kTextSize).width <= length + kOverhang) return {label};
-  return {label.substr(0, unit), label.substr(unit + 1)};
+  auto lines = typesetter.wrapped(label.substr(0, unit), length + kOverhang, kTextSize);
+  if (unit != label.npos) lines.push_back(label.substr(unit + 1));
+  return lines;
 }
 
 /// Every place, or every second, third, ... as far as their names stand clear of each other.

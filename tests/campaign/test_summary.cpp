@@ -183,6 +183,9 @@ TEST(Words, AxesAreCalledAsPeopleCallThem) {
   EXPECT_EQ(axis_name("model.parameters.contact_stiffness.value", {}).name, "model's contact stiffness");
   EXPECT_EQ(axis_name("model.parameters.contact_stiffness", {}).unit, "N·m/rad");
   EXPECT_EQ(axis_name("model.parameters.contact_stiffness", Coordinates::kTranslation).unit, "N/m");
+  EXPECT_EQ(axis_name("simulation.model.effects.0.contact_adhesion.release_nm", {}).name,
+            "contact adhesion: release");
+  EXPECT_EQ(axis_name("simulation.model.effects.0.contact_adhesion.release_nm", {}).unit, "N·m");
   EXPECT_EQ(axis_name("some.other.path", {}).name, "some.other.path");
 }
 
