@@ -34,7 +34,6 @@ constexpr double kTwoLevels = 0.7;
 /// all the time, what two levels explain best changes by 0.3 to 1.5. Half tells 26 of the same
 /// drives, and they hold, double 30, of which two miss.
 constexpr double kFlat = 0.25;
-constexpr double kSameShelf = 0.15;  ///< of the way: two windows tell the same; half and double tell the same
 constexpr double kLow = 0.2, kHigh = 0.8;  ///< of the step: between which its width is read
 constexpr double kHalf = 0.5;
 /// Of the speed before: below it the load has a ninth of its energy left to coast on where it was last seen

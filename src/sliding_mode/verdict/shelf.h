@@ -9,6 +9,8 @@
 
 namespace gapscope::internal::sliding_mode {
 
+constexpr double kSameShelf = 0.15;  ///< of the way: two windows tell the same; half and double tell the same
+
 /// The reversal shelf: where a drive goes slowly to and fro, such as in a position loop, the torque behind a
 /// reversal stays on a shelf as long as the motor moves alone, against its own friction, and rises by that of
 /// the load where it meets the far flank. The way between is the gap, without any impact.

@@ -29,6 +29,19 @@ bool agree(const GapEvidence& a, const GapEvidence& b) {
   return std::abs(a.gap - b.gap) <= kNormal95 * std::hypot(a.parts.together(), b.parts.together());
 }
 
+/// Behind most reversals an impact ends the motor's way alone before the torque rises: that is no shelf then,
+/// but a load that was thrown on and is met where it stopped.
+bool hits_before(const Pool& pool, const GapEvidence& shelf) {
+  std::size_t before = 0;
+  for (const GapEvent& rise : shelf.events)
+    before += std::ranges::any_of(pool.events, [&](const GapEvent& e) {
+      const double way = rise.direction * (e.x1_t2 - rise.x1_t1);
+      return e.file == rise.file && e.direction == rise.direction && e.t2 > rise.t1 && e.t2 < rise.t2 &&
+             way < (1.0 - kSameShelf) * rise.gap_uncorrected;
+    });
+  return 2 * before > shelf.events.size();
+}
+
 /// Whether nothing was read of recordings in which something could have been.
 bool may_deny(const Pool& pool, const GapEvidence& evidence) {
   return !evidence.against.empty() && pool.half_periods > 0.0;
@@ -45,6 +58,7 @@ GapEstimate decide_gap(std::span<const MotorTrace> recordings, std::span<const s
   GapEvidence passages = gap_evidence(pool);
   auto shelf = !options.locked && options.method == DetectorMethod::kAuto ? read_shelf(recordings, facts)
                                                                           : std::nullopt;
+  if (shelf && hits_before(pool, *shelf)) shelf.reset();
   if (shelf && passages.against.empty() && passages.quantity == GapQuantity::kGap)
     passages.tested.push_back({words::same_by_torque(), agree(passages, *shelf)});
   GapEstimate estimate = conclude(passages);
