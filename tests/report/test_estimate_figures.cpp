@@ -18,7 +18,7 @@ TEST(Estimates, ShowsEveryEstimateWithItsInterval) {
   const FigureData figure = estimates(ReportView(full_run()));
   const Panel& panel = figure.panels[0];
   EXPECT_EQ(panel.y.categories,
-            (std::vector<std::string>{"model-free", "reference", "$x_1$–$x_2$ map", "simulated"}));
+            (std::vector<std::string>{"model-free", "fitted model", "$x_1$–$x_2$ map", "simulated"}));
   EXPECT_EQ(panel.series[0].x[0], full_run().model_free->gap);
   EXPECT_EQ(panel.series[0].x_intervals[0].low, full_run().model_free->ci95.low);
   EXPECT_EQ(panel.series[1].x_intervals[0].high, full_run().reference->parameters[4].ci95.high);

@@ -58,7 +58,7 @@ TEST(Report, SaysNearTheTopThatNoDriveMadeTheDataAndListsThePassages) {
   ASSERT_NE(table, std::string::npos);
   const std::string rows = text.substr(table, text.find("\n## ", table + 1) - table);
   EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), passages + 6);
-  EXPECT_TRUE(has(text, "To see where model and drive differ"));
+  EXPECT_TRUE(has(text, "`gapscope diagnose CONFIG`"));
   EXPECT_FALSE(has(text, "- **Cause:** "));
 }
 
