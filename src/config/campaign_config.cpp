@@ -136,6 +136,12 @@ CampaignConfig read_campaign(const std::string& text, const std::string& file) {
     if (const auto estimators = root.find("estimators"); estimators && c.literal && !has_bound)
       estimators->fail(
           "names literal, expected detector: {literal: L}, its bound [rad/s^2], in the base or an axis");
+    if (const auto estimators = root.find("estimators");
+        estimators && c.literal && c.model_free && first.detector.method == DetectorMethod::kLiteral)
+      estimators->fail(
+          "has literal twice: detector: {method: literal} makes model_free S1 to S6 as well, expected "
+          "detector: "
+          "{literal: L} without a method");
     c.literal = c.literal && has_bound;
   } catch (const ConfigError& error) {
     throw ConfigError(file, line_to_blame(c, *root.find("axes")),

@@ -49,15 +49,26 @@ AxisValue hypercube_value(const LatinHypercube& cube, const CampaignAxis& axis, 
   return axis.values[stratum * axis.values.size() / cube.samples];
 }
 
-/// Writes a value into a tree of maps and lists; maps that are missing are made.
+/// The item of a list of effects that is called so; its size where none is.
+std::size_t place_of_name(const YAML::Node& list, const std::string& name) {
+  std::size_t i = 0;
+  while (i < list.size() && !(list[i].IsMap() && list[i][name].IsDefined())) ++i;
+  return i;
+}
+
+/// Writes a value into a tree of maps and lists, whose items are counted from 0 or called by their only key;
+/// maps that are missing are made.
 void write_at(YAML::Node node, const std::string& path, const std::string& whole, const YAML::Node& value) {
   const std::size_t dot = path.find('.');
   const std::string key = path.substr(0, dot);
   if (node.IsSequence()) {
+    if (const std::size_t named = place_of_name(node, key); named < node.size())
+      return write_at(node[named], path, whole, value);
     const bool is_place = !key.empty() && key.size() < 6 && key.find_first_not_of("0123456789") == key.npos;
     if (!is_place || std::stoul(key) >= node.size())
-      throw ConfigError(fmt::format("{}: '{}' is no place in a list of {}, expected 0 to {}", whole, key,
-                                    node.size(), node.size() - 1));
+      throw ConfigError(
+          fmt::format("{}: '{}' is no place in a list of {}, expected 0 to {} or the name of an item", whole,
+                      key, node.size(), node.size() - 1));
     if (dot == path.npos)
       node[std::stoul(key)] = value;
     else

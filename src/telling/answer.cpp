@@ -106,8 +106,11 @@ Told without_model(const Findings& f) {
 /// The paper's steps claim no interval, so a fit that tells one comes first.
 Said as_printed(const Findings& f, const FittedParameter* gap) {
   Said a = gap == nullptr ? from_model_free(f, AnswerTrust::kLimited) : from_reference(f, *gap);
-  add(a,
-      gap == nullptr ? without_model(f) : Told{{"gap.literal.reads", {length("other", f.model_free->gap)}}});
+  add(a, gap == nullptr
+             ? without_model(f)
+             : Told{{"gap.literal.reads",
+                     {length("other", f.model_free->gap),
+                      per_cent("apart", 100.0 * std::abs(f.model_free->gap / gap->value - 1.0))}}});
   return a;
 }
 

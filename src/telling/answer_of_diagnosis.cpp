@@ -56,7 +56,8 @@ Answer beside_reading(Answer a, const Answer& reading, Coordinates coordinates) 
         {{printed ? "gap.literal.reads"
           : agree ? "gap.model_free.agrees"
                   : "gap.model_free.contradicts",
-          {number("other", reading.gap, "rad", reading.ci95)}}},
+          {number("other", reading.gap, "rad", reading.ci95),
+           per_cent("apart", 100.0 * std::abs(reading.gap / a.gap - 1.0))}}},
         coordinates);
   if (!agree && !printed) a.trust = AnswerTrust::kLimited;
   return a;

@@ -31,7 +31,7 @@ constexpr Wording kWordings[] = {
      "The impacts alone read {other}: the first of several gaps in series, or a load that moved."},
     {"gap.reference.contradicts", "But the fitted model gives {other}."},
     {"gap.diagnosis.contradicts", "But the model that the diagnosis has fitted gives {other}."},
-    {"gap.literal.reads", "S1 to S6 of the source paper read {other}."},
+    {"gap.literal.reads", "S1 to S6 of the source paper read {other}, {apart} away from it."},
     {"none.model_free", "There is no backlash above {least}[ ({share} of the travel)]."},
     {"none.model_free.agrees", "Without a model none above {least} is seen, which agrees."},
     {"none.model_free.contradicts", "But without a model there is no backlash above {least}."},

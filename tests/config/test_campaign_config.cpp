@@ -44,6 +44,28 @@ std::vector<std::string> texts(const std::vector<AxisValue>& values) {
   return out;
 }
 
+TEST(CampaignConfig, AnEffectGoesByItsNameOrItsPlace) {
+  const auto level = [](const std::string& place) {
+    const TemporaryFile campaign("base: sim.yaml\naxes: {model.effects." + place +
+                                     ".level_nm: [0.02], simulation.seed: {repeat: 2}}\n",
+                                 "c.yaml");
+    std::ofstream(campaign.folder() / "sim.yaml")
+        << kSimulated << "  effects: [{motor_coulomb_friction: {level_nm: 0.01}}]\n";
+    return campaign_run(load_campaign(campaign.path()), 0).model.effects.at(0).effect.parameters.at(0).value;
+  };
+  EXPECT_DOUBLE_EQ(level("motor_coulomb_friction"), 0.02);
+  EXPECT_DOUBLE_EQ(level("0.motor_coulomb_friction"), 0.02);
+  EXPECT_THROW(level("cogging_torque"), ConfigError);
+}
+
+TEST(CampaignConfig, LiteralTwiceIsNoComparison) {
+  EXPECT_THAT(
+      Campaign(
+          "estimators: [literal, model_free]\naxes:\n  detector: [{method: literal, bound: 6, literal: 6}]\n")
+          .refusal(),
+      HasSubstr("has literal twice"));
+}
+
 TEST(CampaignConfig, AxesAreListsRangesRatiosAndSeeds) {
   const CampaignConfig c = Campaign(
                                "axes:\n"

@@ -23,7 +23,7 @@ Fact example_of(const std::string& key) {
     put(number("other", 0.0191, "rad", {0.0188, 0.0194}));
     put(number("read", 0.0191, "rad", {0.0188, 0.0194}));
     for (const char* torque : {"missing", "before", "after"}) put(number(torque, 0.0153, "N m"));
-    for (const char* share : {"share", "share_after", "fall", "low", "high", "p", "drift"})
+    for (const char* share : {"share", "apart", "share_after", "fall", "low", "high", "p", "drift"})
       put(per_cent(share, 7.2));
     for (const char* count : {"times", "floors", "bound", "ratio", "to_small", "to_large", "band", "turns",
                               "duration", "factor", "more", "rows"})
