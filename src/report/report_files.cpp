@@ -30,6 +30,7 @@ FigureData for_paper(FigureData figure) {
   constexpr double kSmallest = kTickSize / kColumnPixels * kColumnWidth / kPoint;
   constexpr double kNarrower = kSmallest / 8.0;
   figure.title.clear();
+  figure.lines.clear();  // what a caption says
   figure.width *= kNarrower;
   figure.column *= kNarrower;
   figure.scale /= kNarrower;
