@@ -14,19 +14,21 @@ struct Spelling {
   const char *written, *unit;
 };
 constexpr Spelling kSpellings[] = {
-    {"sec", "s"},         {"secs", "s"},        {"seconds", "s"},   {"msec", "ms"},
-    {"millis", "ms"},     {"µs", "us"},         {"μs", "us"},       {"usec", "us"},
-    {"micros", "us"},     {"nsec", "ns"},       {"°", "deg"},       {"degree", "deg"},
-    {"degrees", "deg"},   {"radian", "rad"},    {"radians", "rad"}, {"turns", "rev"},
-    {"revs", "rev"},      {"rotations", "rev"}, {"inch", "in"},     {"inches", "in"},
-    {"µm", "um"},         {"μm", "um"},         {"pct", "%"},       {"percent", "%"},
-    {"‰", "permille"},    {"amps", "A"},        {"amp", "A"},       {"volts", "V"},
-    {"volt", "V"},        {"1/min", "rpm"},     {"r/min", "rpm"},   {"min-1", "rpm"},
-    {"rps", "rev/s"},     {"rad_s", "rad/s"},   {"deg_s", "deg/s"}, {"°/s", "deg/s"},
-    {"dps", "deg/s"},     {"m_s", "m/s"},       {"mps", "m/s"},     {"mm_s", "mm/s"},
-    {"rads", "rad/s"},    {"inc", "counts"},    {"incs", "counts"}, {"increments", "counts"},
-    {"counts", "counts"}, {"count", "counts"},  {"cnt", "counts"},  {"cnts", "counts"},
-    {"ticks", "counts"}};
+    {"sec", "s"},         {"secs", "s"},        {"seconds", "s"},     {"msec", "ms"},
+    {"millis", "ms"},     {"µs", "us"},         {"μs", "us"},         {"usec", "us"},
+    {"micros", "us"},     {"nsec", "ns"},       {"°", "deg"},         {"degree", "deg"},
+    {"degrees", "deg"},   {"radian", "rad"},    {"radians", "rad"},   {"turns", "rev"},
+    {"revs", "rev"},      {"rotations", "rev"}, {"inch", "in"},       {"inches", "in"},
+    {"µm", "um"},         {"μm", "um"},         {"pct", "%"},         {"percent", "%"},
+    {"‰", "permille"},    {"amps", "A"},        {"amp", "A"},         {"volts", "V"},
+    {"volt", "V"},        {"1/min", "rpm"},     {"r/min", "rpm"},     {"min-1", "rpm"},
+    {"rps", "rev/s"},     {"rad_s", "rad/s"},   {"deg_s", "deg/s"},   {"°/s", "deg/s"},
+    {"dps", "deg/s"},     {"m_s", "m/s"},       {"mps", "m/s"},       {"mm_s", "mm/s"},
+    {"rads", "rad/s"},    {"inc", "counts"},    {"incs", "counts"},   {"increments", "counts"},
+    {"counts", "counts"}, {"count", "counts"},  {"cnt", "counts"},    {"cnts", "counts"},
+    {"ticks", "counts"},  {"lb-in", "lbf in"},  {"lbf-in", "lbf in"}, {"in-lb", "lbf in"},
+    {"lb-ft", "lbf ft"},  {"ft-lb", "lbf ft"},  {"oz-in", "ozf in"},  {"kgf-cm", "kgf cm"},
+    {"kg-cm", "kgf cm"}};
 
 bool is_known(Quantity quantity, const std::string& unit) {
   const bool angle = quantity == Quantity::kAngle;

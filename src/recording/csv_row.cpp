@@ -38,7 +38,8 @@ bool are_names(const std::vector<std::string>& fields) {
 
 /// What a line is that is no header at all; empty where it may be one.
 std::string no_header(std::string_view line, const std::vector<std::string_view>& fields) {
-  if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) return "is text in UTF-16";
+  if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF"))
+    return "is text in UTF-16 (iconv -f UTF-16 -t UTF-8 FILE)";
   while (line.ends_with('\r')) line.remove_suffix(1);
   if (line.find('\r') != line.npos) return "ends its lines with carriage returns alone";
   const auto is_control = [](char c) { return c != '\t' && static_cast<unsigned char>(c) < 0x20; };
@@ -178,7 +179,7 @@ CsvRow::Place CsvRow::place_of_time() const {
   if (form_.rows.empty()) return named;
   const auto& row = form_.rows.front();
   const auto is_stamp = [&](std::size_t i) {
-    return i < row.size() && kind_of_field(row[i], form_.separator) == FieldKind::kStamp;
+    return i < row.size() && kind_of_field(row[i]) == FieldKind::kStamp;
   };
   const auto at = static_cast<std::size_t>(named.column);
   if (!is_stamp(at) || RowClock::reads(row[at])) return named;
@@ -250,9 +251,10 @@ void CsvRow::check_width() const {
                          : ""));
 }
 
-/// A number as it is read: with a point. A comma is a decimal mark where it separates no columns.
+/// A number as it is read: with a point. A comma is a decimal mark where it separates no columns, or in
+/// quotes.
 std::string_view CsvRow::with_decimal_point(std::string_view text, const std::string& column) {
-  const auto mark = form_.separator == ',' ? text.npos : text.find_first_of(".,");
+  const auto mark = text.find_first_of(".,");
   if (mark == text.npos) return text;
   if (decimal_mark_ == 0) decimal_mark_ = text[mark];
   if (text[mark] != decimal_mark_ || text.find_first_of(".,", mark + 1) != text.npos)
@@ -309,16 +311,24 @@ std::string CsvRow::text_of(const std::string& column) const {
              : std::string(fields_[static_cast<std::size_t>(at)]);
 }
 
+bool CsvRow::begins_with_text() const {
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+  return has_header_ && rows_ > 0 && !fields_.empty() && kind_of_field(fields_.front()) == FieldKind::kText &&
+         std::any_of(fields_.front().begin(), fields_.front().end(), is_letter);
+}
+
 double CsvRow::number(Place place, const std::string& column, const UnitScale& scale) {
   std::string_view text = fields_[static_cast<std::size_t>(place.column)];
   if (text.starts_with('[')) text = field(place, column);
-  text = with_decimal_point(text, column);
+  if (form_.separator != ',') text = with_decimal_point(text, column);
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   value = scale(value);
   if (problem == std::errc() && end == text.data() + text.size() && std::abs(value) <= kLargestNumber)
     return value;
+  // Between commas one within a number is rare: it is in quotes.
+  if (form_.separator == ',' && text.find(',') != text.npos) text = with_decimal_point(text, column);
   return slow_number(text, column, scale);
 }
 
@@ -329,6 +339,7 @@ double CsvRow::slow_number(std::string_view text, const std::string& column, con
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = end == text.data() + text.size();
   value = scale(value);
+  if (whole && problem == std::errc() && std::abs(value) <= kLargestNumber) return value;
   const bool vanishes = std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1.0;
   if (whole && problem == std::errc::result_out_of_range && vanishes) return 0.0;
   const bool too_large = whole && problem == std::errc() && std::isfinite(value);

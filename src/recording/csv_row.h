@@ -37,6 +37,8 @@ class CsvRow {
   double position() { return number(x1_, columns_.position, columns_.scales.position); }
   double load_position() { return number(x2_, columns_.load_position, columns_.scales.load_position); }
 
+  /// Whether the first field is neither a number nor empty: a line of words, no damaged row.
+  bool begins_with_text() const;
   bool has_load_position() const { return x2_.column >= 0; }
   bool has_target() const { return target_.column >= 0; }
   bool has_input() const { return u_.column >= 0; }

@@ -2,8 +2,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "gapscope/base/errors.h"
+#include "gapscope/base/statistics.h"
 #include "recording/csv_row.h"
 #include "recording/recorded_rows.h"
 
@@ -58,6 +61,7 @@ class RowTaker {
     const RecordingColumns& columns = row_.columns();
     const double t = row_.time();
     if (std::isnan(t)) return table_.leave_out({row_.line(), columns.time, row_.text_of(columns.time)});
+    if (!table_.t.empty() && t == table_.t.back() && joins_last()) return;
     if (!table_.admits(t, row_.line(), earlier, columns.time)) return;
     table_.t.push_back(t);
     table_.u.push_back(row_.input());
@@ -71,7 +75,28 @@ class RowTaker {
     table_.line.push_back(row_.line());
   }
 
+  long joined() const { return joined_; }  ///< rows that filled the blanks of the one before
+
  private:
+  /// Puts the numbers of a row into the blanks of the last one, unless both have one in some column.
+  bool joins_last() {
+    std::pair<Numbers*, double> columns[] = {
+        {&table_.x1, row_.position()},
+        {&table_.u, row_.input()},
+        {&table_.x2, row_.has_load_position() ? row_.load_position() : kNaN},
+        {&table_.target, row_.has_target() ? row_.target() : kNaN}};
+    bool any = false;
+    for (const auto& [column, value] : columns) {
+      if (column->empty() || std::isnan(value)) continue;
+      if (!std::isnan(column->back())) return false;
+      any = true;
+    }
+    for (const auto& [column, value] : columns)
+      if (!column->empty() && !std::isnan(value)) column->back() = value;
+    joined_ += any;
+    return any;
+  }
+
   void note(const std::string& column, unsigned bit) {
     if ((noted_ & (1u << bit)) != 0) return;
     noted_ |= 1u << bit;
@@ -81,6 +106,7 @@ class RowTaker {
   CsvRow& row_;
   RecordedRows& table_;
   unsigned noted_ = 0;
+  long joined_ = 0;
 };
 
 /// What stands in the first line of a text in which no rows are seen.
@@ -106,7 +132,7 @@ std::vector<std::string> csv_names(const std::string& path) {
   for (std::size_t i = 0; !form.rows.empty() && i < std::min(form.names.size(), form.rows.front().size());
        ++i) {
     const std::string& field = form.rows.front()[i];
-    if (kind_of_field(field, form.separator) != FieldKind::kList) continue;
+    if (kind_of_field(field) != FieldKind::kList) continue;
     std::vector<std::string_view> elements;
     split_fields(std::string_view(field).substr(1, field.size() - 2), ',', elements);
     for (std::size_t j = 0; j < elements.size(); ++j)
@@ -124,10 +150,24 @@ RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, 
   table.newest_first = row.newest_first();
   RowTaker taker(row, table);
   TextLines lines(path);
+  std::optional<ConfigError> behind;  // of the first line that is no row, below all rows
   for (std::string_view line; lines.next(line);) {
     table.open_end = lines.open_end();
-    if (row.next(line)) taker.add(earlier);
+    const std::size_t rows = table.size();
+    try {
+      if (!row.next(line)) continue;
+      if (behind) throw *behind;  // there are rows below it
+      taker.add(earlier);
+    } catch (const ConfigError& problem) {
+      if (table.size() != rows || table.line.size() != rows || !row.begins_with_text()) throw;
+      if (!behind) behind = problem;
+    }
   }
+  if (behind && table.size() < kFewestSamples) throw *behind;
+  if (behind) table.assumed.emplace_back("table.lines_behind", "lines behind it");
+  if (taker.joined() > 0)
+    table.assumed.emplace_back("table.joined", "rows of one time joined: {}",
+                               std::vector<Remark::Value>{taker.joined()});
   row.require_header();
   table.has_input = row.has_input();
   if (table.newest_first) {

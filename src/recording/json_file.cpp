@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <utility>
 
 #include "base/shown.h"
 #include "base/text.h"
@@ -29,6 +30,24 @@ struct JsonColumn {
   double value = kNaN;                ///< for all rows
   JsonPath path = {};                 ///< of a list
 };
+
+void count_numbers(JsonCursor& json, std::size_t& count) {
+  const char next = json.peek();
+  if (next == '{')
+    json.object([&](const std::string&) { count_numbers(json, count); });
+  else if (next == '[')
+    json.array([&] { count_numbers(json, count); });
+  else
+    ++count, json.skip();
+}
+
+/// Whether what is next has more numbers than a row: it is a rollout, whose lists are named by their paths.
+bool is_long(JsonCursor json) {
+  constexpr std::size_t kMostOfRow = 1000;
+  std::size_t count = 0;
+  count_numbers(json, count);
+  return count > kMostOfRow;
+}
 
 class JsonFile : public ArrayFile {
  public:
@@ -109,8 +128,12 @@ class JsonFile : public ArrayFile {
   void look(const std::string& position) {
     JsonCursor json(text_);
     is_list_ = json.peek() == '[';
+    bool rollouts = false, first = true;
     if (is_list_)
-      json.skip();
+      json.array([&] {
+        if (std::exchange(first, false)) rollouts = json.peek() == '{' && is_long(json);
+        json.skip();
+      });
     else
       look_at_members(json, position);
     by_line_ = json.peek() == '{' && !is_list_;
@@ -118,13 +141,14 @@ class JsonFile : public ArrayFile {
       columns_.clear(), table_.clear();
     else if (json.peek() != '\0')
       json.fail("the end of the text");
-    if (is_list_ || by_line_ || !table_.empty()) look_at_rows();
+    if ((is_list_ && !rollouts) || by_line_ || !table_.empty()) look_at_rows();
   }
 
   /// Of an object: its lists, and its numbers that hold for all rows.
   void look_at_members(JsonCursor& json, const std::string& position) {
     bool has_position = false;
     json.object([&](const std::string& key) {
+      if (json.peek() == '{' && is_long(json)) return json.skip();
       if (json.peek() != '[') {
         MessageNumbers constants;
         flatten(json, key, constants);
@@ -140,12 +164,15 @@ class JsonFile : public ArrayFile {
                     bool& has_position) {
     JsonColumn list{JsonColumn::kList};
     list.path = {key};
-    bool objects = false, here = false;
+    bool objects = false, rollouts = false, here = false;
     json.array([&] {
       const char next = json.peek();
       if (list.rows++ > 0 || next == '"') return json.skip();
+      rollouts = next == '{' && is_long(json);
       objects = next == '{';
-      if (objects) {
+      if (rollouts) {
+        json.skip();
+      } else if (objects) {
         MessageNumbers row;
         flatten(json, "", row);
         row.finish();
@@ -157,6 +184,7 @@ class JsonFile : public ArrayFile {
       }
     });
     if (list.rows > kMostSamples) json.fail(fmt::format("at most {} elements of a list", kMostSamples));
+    if (rollouts) return;
     if (!objects)
       columns_.insert_or_assign(key, list), rows_ = std::max(rows_, list.rows);
     else if (table_.empty() || (here && !has_position))

@@ -67,6 +67,10 @@ RecordedRows read_rows(const std::string& path, const RecordingColumns& columns,
 RecordedRows read_csv(const std::string& path, const RecordingColumns& columns, EarlierRow earlier);
 std::vector<std::string> csv_names(const std::string& path);  ///< of its columns; empty where there are none
 
+/// The numbers of one column or array as they stand.
+/// @param columns  of which a text takes the time, or the rate
+Numbers column_numbers(const std::string& path, const std::string& name, const RecordingColumns& columns);
+
 /// Fields without a number: at most two in a row are bridged, further rows left out. Where a column is filled
 /// in some rows only, as where each row is of one topic, the others are brought to the rows of the position.
 /// @throws ConfigError where too few rows are left

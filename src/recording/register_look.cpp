@@ -29,7 +29,13 @@ RegisterForm seen_register(std::span<const double> numbers) {
   }
   for (int bit = 7; bit < 31; ++bit) {
     const double sign = std::ldexp(1.0, bit);
-    if (!are_in_both(numbers, 0.5 * sign, sign, 1.5 * sign)) continue;
+    // Two levels of a command may lie so, too; what changes its sign passes by zero from both sides.
+    if (!are_in_both(numbers, 0.75 * sign, sign, 1.75 * sign)) continue;
+    const auto is_small = [&](double x) { return x < 0.25 * sign; };
+    const auto is_small_with_sign = [&](double x) { return x >= sign && x < 1.25 * sign; };
+    if (std::none_of(numbers.begin(), numbers.end(), is_small) ||
+        std::none_of(numbers.begin(), numbers.end(), is_small_with_sign))
+      continue;
     form.sign_bit = bit;
     return form;
   }

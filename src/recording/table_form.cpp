@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 #include "base/shown.h"
@@ -61,7 +62,7 @@ Split split_by(char separator, const std::vector<Line>& lines) {
     auto& kinds = s.kinds.emplace_back();
     long score = 0;
     for (const std::string_view field : fields) {
-      kinds.push_back(kind_of_field(field, separator));
+      kinds.push_back(kind_of_field(field));
       score += is_value(kinds.back()) ? 1 : kinds.back() == FieldKind::kText ? -1 : 0;
     }
     if (fields.size() > 1) scores[fields.size()] += score;
@@ -101,15 +102,27 @@ std::size_t first_row(const Split& s, const std::vector<Line>& lines) {
   return first;
 }
 
+/// What is no text in UTF-8 is taken for Latin-1.
+std::string as_utf8(std::string_view text) {
+  if (is_text(text)) return std::string(text);
+  std::string out;
+  for (const char byte : text) {
+    const auto b = static_cast<unsigned char>(byte);
+    if (b >= 0x80) out += static_cast<char>(0xc0 | b >> 6);
+    out += static_cast<char>(b < 0x80 ? b : 0x80 | (b & 0x3f));
+  }
+  return out;
+}
+
 /// "Time", "[s]" read "Time [s]": of a table with blanks between the columns.
 std::vector<std::string> with_their_units(const Cells& fields) {
   std::vector<std::string> names;
   for (const std::string_view field : fields) {
     const bool unit = field.size() > 2 && (field.front() == '[' || field.front() == '(');
     if (unit && !names.empty())
-      names.back() += " " + std::string(field);
+      names.back() += " " + as_utf8(field);
     else
-      names.emplace_back(field);
+      names.push_back(as_utf8(field));
   }
   return names;
 }
@@ -119,11 +132,12 @@ std::vector<std::string> names_in(const Split& s, std::string_view text) {
   Cells fields;
   split_fields(text, s.separator, fields);
   while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
-  std::vector<std::string> names(fields.begin(), fields.end());
+  std::vector<std::string> names;
+  std::transform(fields.begin(), fields.end(), std::back_inserter(names), as_utf8);
   if (s.separator == kBlanks && names.size() != s.width) names = with_their_units(fields);
   const bool fits = s.separator == kBlanks ? names.size() == s.width : names.size() > 1;
   const bool named = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    return kind_of_field(name, s.separator) == FieldKind::kText;
+    return kind_of_field(name) == FieldKind::kText;
   });
   return fits && named ? names : std::vector<std::string>{};
 }
@@ -161,7 +175,7 @@ void find_names(const Split& s, const std::vector<Line>& lines, std::size_t firs
     const auto names = over == nullptr ? std::vector<std::string>{} : names_in(s, over->text);
     if (!names.empty()) {
       form.header = over->number, form.names = names;
-      form.units.assign(fields.begin(), fields.end());
+      std::transform(fields.begin(), fields.end(), std::back_inserter(form.units), as_utf8);
       form.told.emplace_back("table.units_below_names", "units in line {}",
                              std::vector<Remark::Value>{static_cast<long>(line->number)});
       return;

@@ -21,8 +21,7 @@ enum class FieldKind {
   kText,
 };
 
-/// @param separator  of the columns: a comma that stands between them is in no number
-FieldKind kind_of_field(std::string_view field, char separator);
+FieldKind kind_of_field(std::string_view field);
 
 /// Whether a field has nothing, or a word for it.
 bool is_blank_field(std::string_view field);

@@ -68,11 +68,12 @@ void split_at_blanks(std::string_view text, std::vector<std::string_view>& field
   }
 }
 
-bool is_number(std::string_view field, bool decimal_comma) {
+/// With a decimal point or comma: one that separates columns is in no field.
+bool is_number(std::string_view field) {
   std::array<char, 64> text{};
   if (field.empty() || field.size() > text.size()) return false;
   std::copy(field.begin(), field.end(), text.begin());
-  if (decimal_comma) std::replace(text.begin(), text.begin() + field.size(), ',', '.');
+  std::replace(text.begin(), text.begin() + field.size(), ',', '.');
   const char *begin = text.data(), *const end = begin + field.size();
   if (field.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
   double value = 0.0;
@@ -112,9 +113,9 @@ bool is_blank_field(std::string_view field) {
   return false;
 }
 
-FieldKind kind_of_field(std::string_view field, char separator) {
+FieldKind kind_of_field(std::string_view field) {
   if (is_blank_field(field)) return FieldKind::kBlank;
-  if (is_number(field, separator != ',')) return FieldKind::kNumber;
+  if (is_number(field)) return FieldKind::kNumber;
   if (is_list(field)) return FieldKind::kList;
   return is_stamp(field) ? FieldKind::kStamp : FieldKind::kText;
 }

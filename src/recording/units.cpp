@@ -41,8 +41,11 @@ const std::vector<Unit>& units(Quantity quantity) {
   static const std::vector<Unit> torque = {{"N m", kOne, "N m"},
                                            {"mN m", kMilli, "N m"},
                                            {"kN m", kKilo, "N m"},
+                                           {"N cm", kPercent, "N m"},
+                                           {"N mm", kMilli, "N m"},
                                            {"lbf in", {kPound * kGravity * kInch, 1.0}, "N m"},
                                            {"lbf ft", {kPound * kGravity * 12.0 * kInch, 1.0}, "N m"},
+                                           {"ozf in", {kPound * kGravity * kInch, 16.0}, "N m"},
                                            {"kgf cm", {kGravity, 100.0}, "N m"},
                                            {"A", kOne, "A"},
                                            {"mA", kMilli, "A"},
@@ -95,14 +98,14 @@ const std::vector<Unit>& units(Quantity quantity) {
 
 /// Of a torque's unit the sign between its two is written in many ways; the table has the blank.
 std::string as_in_table(Quantity quantity, std::string_view declared) {
-  constexpr std::string_view kForce = "N", kSigns[] = {"", ".", "*", "·", "⋅"};
-  const auto force = declared.rfind(kForce);
-  if (quantity != Quantity::kTorque || force == declared.npos || !declared.ends_with('m'))
-    return std::string(declared);
-  const std::string_view before = declared.substr(0, force + kForce.size());
-  const std::string_view sign = declared.substr(before.size(), declared.size() - before.size() - 1);
-  const bool is_sign = std::find(std::begin(kSigns), std::end(kSigns), sign) != std::end(kSigns);
-  return is_sign ? std::string(before) + " m" : std::string(declared);
+  if (quantity == Quantity::kTorque)
+    for (const std::string_view arm : {"mm", "cm", "m"})
+      for (const std::string_view sign : {"", ".", "*", "·", "⋅", "-"}) {
+        const std::string end = fmt::format("N{}{}", sign, arm);
+        if (!declared.ends_with(end)) continue;
+        return fmt::format("{}N {}", declared.substr(0, declared.size() - end.size()), arm);
+      }
+  return std::string(declared);
 }
 
 std::optional<UnitScale> from_number(std::string_view text) {

@@ -67,6 +67,23 @@ TEST(Json, ReadsListsOfNumbersAndTables) {
               HasSubstr("the column 'q' is of size 60 x 2, expected a vector of real numbers (one of its"));
 }
 
+/// A rollout is no row, however long it is: its lists are columns.
+TEST(Json, ReadsLongRolloutsByTheirPaths) {
+  std::string t, u, x;
+  for (int i = 0; i < 4000; ++i) {
+    const char* const comma = i > 0 ? "," : "";
+    t += comma + std::to_string(0.01 * i), u += comma + ("[" + std::to_string(0.1 * i) + "]");
+    x += comma + std::to_string(-i);
+  }
+  const std::string rollout = "{\"t\": [" + t + "], \"actions\": [" + u + "], \"qpos\": [" + x + "]}";
+  for (const auto& [text, path] : {std::pair{"{\"data\": [" + rollout + "]}", "data[0]."},
+                                   {"[" + rollout + "]", "[0]."},
+                                   {"{\"run\": " + rollout + "}", "run."}}) {
+    const std::string at = path;
+    EXPECT_EQ(read_json(text, columns_named(at + "t", at + "actions", at + "qpos")).x1[5], -5.0) << at;
+  }
+}
+
 /// One row of the table has a number too few, the next one too many: all in all as many as there should be.
 TEST(Json, RefusesRowsOfOtherLengthsWhoseTotalAgrees) {
   std::string ragged = lists();

@@ -46,7 +46,10 @@ TEST(Units, OfATorqueAreTakenAsTheyAreCommonlyWritten) {
   }
   EXPECT_EQ((*unit_scale(Quantity::kTorque, "mNm"))(5.0), 0.005);
   EXPECT_EQ(si_unit(Quantity::kTorque, "kN*m"), "N m");
-  for (const char* none : {"nm", "NM", "N  m", "N/m", "N m ", "Nmm", "N m m", "N", "m"})
+  EXPECT_EQ((*unit_scale(Quantity::kTorque, "Nmm"))(5.0), 0.005);
+  EXPECT_EQ((*unit_scale(Quantity::kTorque, "N.cm"))(5.0), 0.05);
+  EXPECT_NEAR((*unit_scale(Quantity::kTorque, "ozf in"))(1.0), 7.0616e-3, 1e-7);
+  for (const char* none : {"nm", "NM", "N  m", "N/m", "N m ", "Nkm", "N m m", "N", "m"})
     EXPECT_FALSE(unit_scale(Quantity::kTorque, none)) << none;
   EXPECT_FALSE(unit_scale(Quantity::kForce, "Nm"));
 }
