@@ -18,11 +18,14 @@ namespace {
 
 /// "1,3,5": of the time, the input and the position; of the last two where the rows come at a rate.
 void take_columns(RecordingArguments& a) {
-  std::vector<std::string> all;
-  for (std::size_t at = 0; at <= a.columns.size();) {
-    const std::size_t end = std::min(a.columns.find(',', at), a.columns.size());
-    all.push_back(a.columns.substr(at, end - at));
-    at = end + 1;
+  std::vector<std::string> all(1);
+  int inside = 0;  // of brackets, as in "q[:, 0]"
+  for (const char c : a.columns) {
+    inside += c == '[' || c == '(' ? 1 : c == ']' || c == ')' ? -1 : 0;
+    if (c == ',' && inside <= 0)
+      all.emplace_back();
+    else
+      all.back() += c;
   }
   const std::size_t count = a.rate > 0.0 ? 2 : 3;
   if (all.size() != count || contains(all, ""))
@@ -76,6 +79,18 @@ void require_known_units(const RecordingArguments& a) {
   declared.configuration();
 }
 
+void take_register(const RegisterForm& seen, const std::string& column, RegisterForm& declared,
+                   std::vector<Remark>& told) {
+  if (!seen.is_one() || declared.is_one()) return;
+  declared = seen;
+  if (seen.sign_bit > 0)
+    told.emplace_back("register.sign_bit", "bit {} of {} is its sign",
+                      std::vector<Remark::Value>{static_cast<long>(seen.sign_bit), shown(column)});
+  else
+    told.emplace_back("register.bits", "{} is a signed register of {} bits",
+                      std::vector<Remark::Value>{shown(column), static_cast<long>(seen.bits)});
+}
+
 }  // namespace
 
 RecordingArguments with_guesses(RecordingArguments a) {
@@ -93,11 +108,8 @@ RecordingArguments with_guesses(RecordingArguments a) {
   a.target = g.target;
   a.units.time = g.time_unit, a.units.input = g.input_unit, a.units.position = g.position_unit;
   a.units.speed = g.speed_unit;
-  if (g.input_form.is_one() && a.input_register.empty() && !a.registers.input.is_one()) {
-    a.registers.input = g.input_form;
-    g.told.emplace_back("register.sign_bit", "bit {} of {} is its sign",
-                        std::vector<Remark::Value>{static_cast<long>(g.input_form.sign_bit), shown(a.input)});
-  }
+  if (a.input_register.empty()) take_register(g.input_form, a.input, a.registers.input, g.told);
+  take_register(g.position_form, a.position, a.registers.position, g.told);
   const bool no_unit = a.units.position.empty() && unit_in_name(a.position, Quantity::kAngle).empty();
   if (g.whole_positions && a.bits > 0 && no_unit) {
     a.units.position = kCounts;

@@ -16,6 +16,7 @@
 #include "inspection/column_words.h"
 #include "recording/axes.h"
 #include "recording/column_name.h"
+#include "recording/recorded_rows.h"
 #include "recording/register_look.h"
 #include "recording/table_form.h"
 
@@ -69,7 +70,7 @@ std::vector<std::string> fields_of(const TableForm& form, int place) {
 std::vector<double> numbers_of(const TableForm& form, int place) {
   std::vector<double> numbers;
   for (std::string text : fields_of(form, place)) {
-    if (form.separator != ',') std::replace(text.begin(), text.end(), ',', '.');
+    std::replace(text.begin(), text.end(), ',', '.');
     double value = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (problem == std::errc() && end == text.data() + text.size()) numbers.push_back(value);
@@ -83,7 +84,7 @@ bool has_numbers(const Seen& seen, const std::string& name) {
   if (place < 0) return true;  // an element of a list
   const auto fields = fields_of(seen.form, place);
   return std::any_of(fields.begin(), fields.end(), [&](const std::string& field) {
-    const FieldKind kind = kind_of_field(field, seen.form.separator);
+    const FieldKind kind = kind_of_field(field);
     return kind == FieldKind::kNumber || kind == FieldKind::kStamp;
   });
 }
@@ -101,12 +102,37 @@ std::string by_name(const Seen& seen, ColumnRole role, const std::string& beside
   return best;
 }
 
+/// Whether numbers go on by nearly the same, which positions and torques seldom do.
+bool are_even(const std::vector<double>& x) {
+  constexpr double kEven = 0.2;  ///< of the median step: what clocks of loggers jitter
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < x.size(); ++i) steps.push_back(x[i] - x[i - 1]);
+  const double usual = steps.empty() ? 0.0 : median(steps);
+  return usual > 0.0 && std::all_of(steps.begin(), steps.end(),
+                                    [=](double step) { return std::abs(step - usual) < kEven * usual; });
+}
+
+/// Where no name says which column has the time: the last one without another meaning that rises evenly, as
+/// a number of the row stands before it.
+std::string even_column(const Seen& seen) {
+  std::string even;
+  for (std::size_t i = 0; i < seen.form.names.size(); ++i) {
+    const std::string& name = seen.form.names[i];
+    const auto is = [&](ColumnRole role) { return likeness(name, role) > 0; };
+    if (is(ColumnRole::kInput) || is(ColumnRole::kPosition) || is(ColumnRole::kSpeed) ||
+        is(ColumnRole::kTarget))
+      continue;
+    const auto x = numbers_of(seen.form, static_cast<int>(i));
+    if (x.size() > 2 && x.size() == seen.form.rows.size() && are_even(x)) even = name;
+  }
+  return even;
+}
+
 /// Of a table without names: the first column that rises from row to row.
 std::string rising_column(const Seen& seen) {
   for (std::size_t i = 0; i < seen.form.names.size(); ++i) {
     const auto fields = fields_of(seen.form, static_cast<int>(i));
-    if (!fields.empty() && kind_of_field(fields.front(), seen.form.separator) == FieldKind::kStamp)
-      return seen.form.names[i];
+    if (!fields.empty() && kind_of_field(fields.front()) == FieldKind::kStamp) return seen.form.names[i];
     const auto x = numbers_of(seen.form, static_cast<int>(i));
     if (x.size() < 3 || x.size() != fields.size()) continue;
     const auto falls = std::adjacent_find(x.begin(), x.end(), [](double a, double b) { return !(b > a); });
@@ -173,20 +199,30 @@ bool are_whole(const std::vector<double>& x) {
          std::all_of(x.begin(), x.end(), [](double v) { return v == std::round(v); });
 }
 
-void take_units(const Seen& seen, bool rated, ColumnGuess& guess) {
-  guess.whole_positions =
-      seen.is_text && are_whole(numbers_of(seen.form, place_in(seen.form, guess.position)));
-  const std::vector<double> input = numbers_of(seen.form, place_in(seen.form, guess.input));
-  guess.input_form.sign_bit = seen.is_text && guess.input.size() > 0 ? seen_register(input).sign_bit : 0;
+/// All numbers of a column as they stand.
+std::vector<double> all_of(const std::string& path, const std::string& column) {
+  RecordingColumns by_row;
+  by_row.rate = 1.0;
+  return internal::recording::column_numbers(path, column, by_row);
+}
+
+void take_units(const std::string& path, const Seen& seen, bool rated, ColumnGuess& guess) {
+  const auto is_whole = [&](const std::string& column) {
+    return seen.is_text && are_whole(numbers_of(seen.form, place_in(seen.form, column)));
+  };
+  guess.whole_positions = is_whole(guess.position);
+  if (is_whole(guess.input)) guess.input_form = seen_register(all_of(path, guess.input));
+  if (guess.whole_positions) guess.position_form.bits = seen_register(all_of(path, guess.position)).bits;
   take_unit(seen, guess.time, {Quantity::kTime}, guess.time_unit, guess);
   take_unit(seen, guess.input, {Quantity::kTorque, Quantity::kForce}, guess.input_unit, guess);
   take_unit(seen, guess.position, {Quantity::kAngle, Quantity::kLength}, guess.position_unit, guess);
   take_unit(seen, guess.speed, {Quantity::kTurning, Quantity::kSliding}, guess.speed_unit, guess);
-  if (rated || !seen.is_text || !guess.time_unit.empty() ||
-      !unit_in_name(guess.time, Quantity::kTime).empty())
+  // That of an array called t is the second.
+  if (rated || !guess.time_unit.empty() || !unit_in_name(guess.time, Quantity::kTime).empty() ||
+      (!seen.is_text && guess.time == "t"))
     return;
-  const int place = place_in(seen.form, guess.time);
-  const std::string unit = unit_by_steps(numbers_of(seen.form, place));
+  const std::string unit = unit_by_steps(seen.is_text ? numbers_of(seen.form, place_in(seen.form, guess.time))
+                                                      : all_of(path, guess.time));
   if (unit.empty()) return;
   guess.time_unit = unit;
   say(guess, "unit.by_steps", "{} in {}, as it goes on", {shown(guess.time), unit});
@@ -227,6 +263,10 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
     if (!column.empty()) told.push_back(fmt::format("{} {}", word, shown(column)));
   };
   if (!rated) take(guess.time, ColumnRole::kTime, "time", "");
+  if (!rated && guess.time.empty()) {
+    guess.time = even_column(seen);
+    if (!guess.time.empty()) say(guess, "time.rises", "time {}, which rises evenly", {shown(guess.time)});
+  }
   if (guess.speed.empty()) take(guess.position, ColumnRole::kPosition, "position", guess.input);
   if (guess.position.empty()) take(guess.speed, ColumnRole::kSpeed, "speed", guess.input);
   const std::string& beside = guess.position.empty() ? guess.speed : guess.position;
@@ -252,7 +292,7 @@ ColumnGuess guess_columns(const std::string& path, ColumnGuess guess, bool rated
                         !(guess.input.empty() && guess.target.empty());
   if (!complete && (seen.names.empty() || (seen.is_text && seen.form.first == 0))) return guess;
   if (!complete) (seen.named() ? take_by_name : take_by_order)(seen, rated, guess, path);
-  take_units(seen, rated, guess);
+  take_units(path, seen, rated, guess);
   return guess;
 }
 

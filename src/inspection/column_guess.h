@@ -12,9 +12,9 @@ namespace gapscope {
 struct ColumnGuess {
   std::string time, input, position, speed, target;              ///< their names; empty: there is none
   std::string time_unit, input_unit, position_unit, speed_unit;  ///< empty: not known, or in the name
-  RegisterForm input_form;        ///< with a sign bit, as the first rows show it
-  bool whole_positions = false;   ///< those of the first rows are whole numbers
-  std::vector<Remark> told = {};  ///< what was taken for granted
+  RegisterForm input_form, position_form;  ///< of signed registers that were read as unsigned ones
+  bool whole_positions = false;            ///< those of the first rows are whole numbers
+  std::vector<Remark> told = {};           ///< what was taken for granted
 };
 
 /// Fills in what is empty: columns by the words of their names (of a table without names by their order:

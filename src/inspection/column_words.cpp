@@ -21,17 +21,34 @@ struct Word {
 /// them.
 constexpr Word kTimes[] = {{"t", 9},        {"time", 8},    {"timestamp", 8}, {"zeit", 8},    {"stamp", 6},
                            {"datetime", 7}, {"clock", 5},   {"date", 3},      {"elapsed", 6}, {"temps", 6},
-                           {"epoch", 5},    {"seconds", 5}, {"xvalue", 8},    {"millis", 5}};
+                           {"epoch", 5},    {"seconds", 5}, {"xvalue", 8},    {"millis", 5},  {"ts", 6},
+                           {"micros", 5},   {"nanos", 5},   {"ms", 4},        {"us", 4},      {"ns", 4}};
 constexpr Word kInputs[] = {{"u", 9},          {"torque", 8},  {"tau", 8},   {"effort", 8},  {"moment", 7},
                             {"drehmoment", 8}, {"force", 8},   {"kraft", 8}, {"current", 7}, {"iq", 7},
                             {"strom", 7},      {"courant", 7}, {"amps", 6},  {"curr", 6},    {"couple", 7},
                             {"i", 5},          {"duty", 6},    {"pwm", 6},   {"voltage", 5}, {"volts", 5},
                             {"spannung", 5},   {"load", 4},    {"ctrl", 3},  {"control", 3}, {"action", 3}};
-constexpr Word kPositions[] = {{"x1", 9},    {"position", 8}, {"pos", 8},          {"angle", 8},
-                               {"theta", 8}, {"winkel", 8},   {"encoder", 6},      {"enc", 6},
-                               {"q", 6},     {"x", 5},        {"phi", 6},          {"weg", 6},
-                               {"lage", 6},  {"qpos", 7},     {"actpos", 8},       {"travel", 5},
-                               {"scale", 4}, {"th", 4},       {"displacement", 6}, {"counts", 4}};
+constexpr Word kPositions[] = {{"x1", 9},
+                               {"position", 8},
+                               {"pos", 8},
+                               {"angle", 8},
+                               {"theta", 8},
+                               {"winkel", 8},
+                               {"encoder", 6},
+                               {"enc", 6},
+                               {"q", 6},
+                               {"x", 5},
+                               {"phi", 6},
+                               {"weg", 6},
+                               {"lage", 6},
+                               {"qpos", 7},
+                               {"actpos", 8},
+                               {"travel", 5},
+                               {"scale", 4},
+                               {"th", 4},
+                               {"displacement", 6},
+                               {"counts", 4},
+                               {"observationstate", 6}};
 constexpr Word kSpeeds[] = {{"speed", 8},
                             {"velocity", 8},
                             {"vel", 8},
@@ -72,8 +89,15 @@ std::span<const Word> words_for(ColumnRole role) {
 
 /// The name without a unit in brackets at its end, and without the place in a list.
 std::string_view stem_of(std::string_view name) {
-  const std::size_t bracket = name.find_first_of("[(", 1);
-  return bracket == name.npos ? name : name.substr(0, bracket);
+  const bool bracketed = name.ends_with(']') || name.ends_with(')');
+  const std::size_t bracket = bracketed ? name.find_last_of("[(") : name.npos;
+  return bracket == name.npos || bracket == 0 ? name : name.substr(0, bracket);
+}
+
+/// What stands last in a path, "q" of "state.q".
+std::string_view end_of_path(std::string_view stem) {
+  const std::size_t at = stem.find_last_of("./");
+  return at == stem.npos ? stem : stem.substr(at + 1);
 }
 
 std::string small_of(std::string_view text) {
@@ -91,7 +115,7 @@ bool is_word(const std::string& word, std::string_view known) {
 
 /// The best of the words in a name; a name that is the word alone says it best.
 int best_of(std::string_view stem, std::span<const Word> known) {
-  const std::string whole = small_of(stem);
+  const std::string whole = small_of(stem), last = small_of(end_of_path(stem));
   const std::vector<std::string> words = words_of_name(stem);
   int best = 0;
   for (const Word& w : known) {
@@ -102,6 +126,8 @@ int best_of(std::string_view stem, std::span<const Word> known) {
     const bool leads = single && !words.empty() && words.front() == w.text && words.size() == 2;
     if (whole == w.text)
       best = std::max(best, 2 * w.says);
+    else if (last == w.text)
+      best = std::max(best, 2 * w.says - 1);
     else if (in_it || leads)
       best = std::max(best, leads ? w.says / 2 : w.says);
   }

@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "base/text.h"
-#include "inspection/column_guess.h"
-#include "recording/column_name.h"
+#include "inspection/log_form.h"
 #include "recording/csv_rows.h"
 
 namespace gapscope {
@@ -19,56 +18,16 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::TemporaryFile;
 
-constexpr int kLogRows = 300;
-constexpr double kLogStep = 0.01;  // [s]
-
-double input_at(int i) { return 0.5 * std::cos(0.07 * i); }
-double position_at(int i) { return 0.3 * std::sin(0.05 * i); }
-
-/// Rows of a text, each made of its number.
-std::string lines(const std::function<std::string(int)>& line, int count = kLogRows) {
-  std::string text;
-  for (int i = 0; i < count; ++i) text += line(i) + "\n";
-  return text;
-}
-
-/// t, u, x1 with these marks between and within them.
-std::string plain(int i, const std::string& separator = ",", char decimal = '.') {
-  std::string text =
-      fmt::format("{:.4f}{}{:.8f}{}{:.8f}", kLogStep * i, separator, input_at(i), separator, position_at(i));
-  for (char& c : text) c = c == '.' ? decimal : c;
-  return text;
-}
-
-std::string clock(int i, const char* form) {
-  const int ms = i * 10;
-  return fmt::format(fmt::runtime(form), ms / 60000, ms / 1000 % 60, ms % 1000);
-}
-
-std::string values(int i) { return fmt::format(",{:.8f},{:.8f}", input_at(i), position_at(i)); }
-
-/// As `check` and `init` read a file of which nothing, or only a rate, is told.
-Recording as_seen(const std::string& path, double rate, ColumnGuess declared,
-                  std::vector<std::string>& codes) {
-  const ColumnGuess seen = guess_columns(path, std::move(declared), rate > 0.0);
-  ReadOptions options;
-  RecordingColumns& c = options.columns;
-  c.time = seen.time, c.input = seen.input, c.rate = rate;
-  c.position = seen.position.empty() ? seen.speed : seen.position;
-  c.position_is_speed = seen.position.empty();
-  const auto scale = [](Quantity q, const std::string& unit, const std::string& column) {
-    return unit_scale(q, unit.empty() ? unit_in_name(column, q) : unit).value_or(UnitScale{});
-  };
-  c.scales.time = scale(Quantity::kTime, seen.time_unit, c.time);
-  c.scales.input = scale(Quantity::kTorque, seen.input_unit, c.input);
-  c.scales.position = c.position_is_speed ? scale(Quantity::kTurning, seen.speed_unit, c.position)
-                                          : scale(Quantity::kAngle, seen.position_unit, c.position);
-  options.uneven = UnevenRows::kStamped;
-  const Recording r = read_recording(path, options);
-  for (const Remark& remark : seen.told) codes.push_back(remark.code());
-  for (const Remark& remark : r.assumed) codes.push_back(remark.code());
-  return r;
-}
+using test::as_seen;
+using test::clock;
+using test::input_at;
+using test::kLogRows;
+using test::kLogStep;
+using test::kUsualNames;
+using test::lines;
+using test::plain;
+using test::position_at;
+using test::values;
 
 struct LogForm {
   const char* name;
@@ -96,8 +55,6 @@ TEST_P(TableFormTest, GivesTheSameRecording) {
     ASSERT_NEAR(r.x1[at], position_at(i), v.near) << i;
   }
 }
-
-const std::string kUsualNames = "t,u,x1\n";
 
 const std::vector<LogForm> kLogForms = {
     {"plain", kUsualNames + lines([](int i) { return plain(i); }), {}},
@@ -213,6 +170,46 @@ const std::vector<LogForm> kLogForms = {
        return fmt::format("\"{:.4f}\",\"{:.8f}\",\"{:.8f}\"", kLogStep * i, input_at(i), position_at(i));
      }),
      {}},
+    {"quoted_decimal_commas",
+     "\"t\",\"u\",\"x1\"\n" + lines([](int i) {
+       std::string row =
+           fmt::format("\"{:.4f}\";\"{:.8f}\";\"{:.8f}\"", kLogStep * i, input_at(i), position_at(i));
+       for (char& c : row) c = c == '.' ? ',' : c == ';' ? ',' : c;
+       return row;
+     }),
+     {}},
+    {"rows_of_one_time",
+     "time,position,torque\n" + lines([](int i) {
+       return fmt::format("{0:.4f},{1:.8f},\n{0:.4f},,{2:.8f}", kLogStep * i, position_at(i), input_at(i));
+     }),
+     {"table.joined"}},
+    {"latin_1",
+     "Zeit [s];Drehmoment [Nm];Winkel [\xB0]\n" + lines([](int i) {
+       return fmt::format("{:.4f};{:.8f};{:.9f}", kLogStep * i, input_at(i),
+                          position_at(i) * 180.0 / std::numbers::pi);
+     }),
+     {}},
+    {"lines_behind",
+     kUsualNames + lines([](int i) { return plain(i); }) + "\nmin,-0.5,-0.3\nend of file\n",
+     {"table.lines_behind"}},
+    {"a_time_of_another_name",
+     ",tick,u,x1\n" + lines([](int i) { return fmt::format("{},{}", i, 10000 * i) + values(i); }),
+     {"time.rises", "unit.by_steps"}},
+    {"micros",
+     "micros,torque,pos\n" + lines([](int i) { return std::to_string(10000 * i) + values(i); }),
+     {"unit.by_steps"}},
+    {"newton_millimetres",
+     "t,Torque [Nmm],Angle [deg]\n" + lines([](int i) {
+       return fmt::format("{:.4f},{:.6f},{:.9f}", kLogStep * i, 1e3 * input_at(i),
+                          position_at(i) * 180.0 / std::numbers::pi);
+     }),
+     {}},
+    {"lerobot",
+     "timestamp,observation.state,action.torque\n" + lines([](int i) {
+       return fmt::format("{:.4f},\"[{:.8f}, 0.5]\",\"[{:.8f}, 0.1]\"", kLogStep * i, position_at(i),
+                          input_at(i));
+     }),
+     {"columns.by_name"}},
     {"a_time_for_each_channel",
      "Time,Torque,Time,Position\n" + lines([](int i) {
        return fmt::format("{0:.4f},{1:.8f},{0:.4f},{2:.8f}", kLogStep * i, input_at(i), position_at(i));
@@ -325,68 +322,6 @@ TEST(TableForm, RegistersAreSignedAgain) {
   EXPECT_EQ(offset.number(2000.0), -48.0);
   EXPECT_EQ(two.number(65535.0), -1.0);
 }
-
-struct Malformed {
-  const char* name;
-  std::string text;
-  const char* message;
-};
-
-class MalformedTableTest : public ::testing::TestWithParam<Malformed> {};
-
-TEST_P(MalformedTableTest, IsRefusedWithItsPlaceAndWhatToDo) {
-  const TemporaryFile file(GetParam().text);
-  std::vector<std::string> codes;
-  try {
-    as_seen(file.path(), 0.0, {}, codes);
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(GetParam().message));
-    EXPECT_THAT(error.what(), HasSubstr("expected"));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Malformed, MalformedTableTest,
-    ::testing::Values(
-        Malformed{
-            "words_unknown", "date,time,FT_211,FV_211\n" + lines([](int i) {
-                               return clock(i, "2024-11-27,10:{:02}:{:02}.{:03}") + values(i);
-                             }),
-            "r.csv:1: no column is seen to be the position among 1 'date', 2 'time', 3 'FT_211', 4 'FV_211'"},
-        Malformed{"no_time_and_no_rate", "u,x1\n" + lines([](int i) { return values(i).substr(1); }),
-                  "--rate HZ"},
-        Malformed{"four_columns_without_names", lines([](int i) { return plain(i) + ",7"; }),
-                  "--columns TIME,INPUT,POSITION"},
-        Malformed{"a_clock_that_is_none", "time,u,x1\n" + lines([](int i) {
-                                            return clock(i, "10:{:02}:{:02}.{:03}") + values(i);
-                                          }) + "10:99:00,1,1\n",
-                  "time is '10:99:00', expected a finite number"},
-        Malformed{"mostly_blank", "t,u,x1\n" + lines([](int i) {
-                                    return i < 40 ? plain(i) : fmt::format("{:.4f},,nan", kLogStep * i);
-                                  }),
-                  "r.csv:42: u is empty, expected a finite number (40 rows have one in each column)"},
-        Malformed{"a_word_among_blanks",
-                  "t u x1\n" + lines([](int i) { return i == 9 ? "0.09 lost 0.1" : plain(i, " "); }),
-                  "r.csv:11: u is 'lost'"},
-        Malformed{"a_short_row_among_blanks",
-                  "t u x1\n" + lines([](int i) { return i == 9 ? "0.09 0.1" : plain(i, " "); }),
-                  "r.csv:11: 2 fields, expected 3"},
-        Malformed{"neither_up_nor_down",
-                  kUsualNames + lines([](int i) { return plain(i < 100 ? i : 200 - i); }),
-                  "r.csv:103: t goes from"},
-        Malformed{"a_list_that_ends", "time;q;tau\n" + lines([](int i) {
-                                        return fmt::format("{:.4f};[{:.8f} 0.5];{}", kLogStep * i,
-                                                           position_at(i), i == 5 ? "[]" : "[1 2]");
-                                      }),
-                  "is a list of 0"},
-        Malformed{"times_that_differ", "Time,Torque,Time,Position\n" + lines([](int i) {
-                                         return fmt::format("{:.4f},{:.8f},{:.4f},{:.8f}", kLogStep * i,
-                                                            input_at(i), kLogStep * i + 0.002,
-                                                            position_at(i));
-                                       }),
-                  "the column 'Time' is there twice, expected it once, or its place from 1 on (1 or 3)"}),
-    [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
 }  // namespace gapscope
