@@ -74,8 +74,13 @@ std::vector<double> Balance::bumped(std::span<const double> u, int rows) const {
 
 namespace {
 
-double share_left(const std::vector<std::vector<double>>& columns, const std::vector<double>& u) {
-  if (u.size() < kFewestWindows) return kNaN;
+struct BestFit {
+  double share_left = kNaN;
+  Eigen::VectorXd fitted;  ///< of each window
+};
+
+BestFit best_fit(const std::vector<std::vector<double>>& columns, const std::vector<double>& u) {
+  if (u.size() < kFewestWindows) return {};
   const auto rows = static_cast<Eigen::Index>(u.size());
   Eigen::MatrixXd a(rows, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t j = 0; j < columns.size(); ++j) {
@@ -86,7 +91,8 @@ double share_left(const std::vector<std::vector<double>>& columns, const std::ve
   }
   const Eigen::Map<const Eigen::VectorXd> y(u.data(), rows);
   const double all = (y.array() - y.mean()).square().sum();
-  return all > 0.0 ? (y - a * a.colPivHouseholderQr().solve(y)).squaredNorm() / all : kNaN;
+  const Eigen::VectorXd fitted = a * a.colPivHouseholderQr().solve(y);
+  return {all > 0.0 ? (y - fitted).squaredNorm() / all : kNaN, fitted};
 }
 
 /// u with its sign turned after each time that it falls near 0 and rises again; nothing for fewer than three.
@@ -117,10 +123,29 @@ std::vector<double> unfolded(std::span<const double> u) {
 }  // namespace
 
 double Balance::left(std::span<const double> u, int rows) const {
-  return share_left(motion_, bumped(u, rows));
+  return best_fit(motion_, bumped(u, rows)).share_left;
 }
 
-double Balance::left_of_speed(std::span<const double> u) const { return share_left(of_speed_, bumped(u, 0)); }
+double Balance::left_of_speed(std::span<const double> u) const {
+  return best_fit(of_speed_, bumped(u, 0)).share_left;
+}
+
+double Balance::left_with_signs(std::span<const double> u) const {
+  constexpr int kRounds = 10;  // signs that change what is fitted settle in a few
+  const std::vector<double> size = bumped(u, 0);
+  double least = kInfinity;
+  for (const std::size_t column : {0u, 1u}) {  // what drives a mass, and what drives a damper
+    std::vector<double> with_sign = size;
+    for (std::size_t i = 0; i < size.size(); ++i) with_sign[i] = std::copysign(size[i], motion_[column][i]);
+    for (int round = 0; round < kRounds; ++round) {
+      const BestFit fit = best_fit(motion_, with_sign);
+      if (fit.share_left < least) least = fit.share_left;
+      for (std::size_t i = 0; i < size.size() && fit.fitted.size() > 0; ++i)
+        with_sign[i] = std::copysign(size[i], fit.fitted(static_cast<Eigen::Index>(i)));
+    }
+  }
+  return least;
+}
 
 std::vector<std::size_t> balance_windows(const MotorTrace& r, double half_period) {
   constexpr double kOfHalfPeriod = 0.5;
@@ -137,6 +162,7 @@ InputRows best_input_rows(const MotorTrace& r, double half_period) {
   InputRows told;
   double tells = kTells;
   bool alike = true;  // all windows that tell move u to one side
+  int side = 0;
   for (const std::size_t window : balance_windows(r, half_period)) {
     const Balance balance(r, window);
     double least = kInfinity, most = 0.0, as_it_is = kNaN;
@@ -148,25 +174,22 @@ InputRows best_input_rows(const MotorTrace& r, double half_period) {
       most = std::max(most, left);
     }
     const double contrast = (most - least) / (least + kLeftAnyway);
-    if (contrast > kTells) alike = alike && best < 0;
+    const int to = (best > 0) - (best < 0);
+    if (contrast > kTells && side == 0) side = to;
+    if (contrast > kTells) alike = alike && to == side;
     if (contrast > tells) tells = contrast, told = {best, (as_it_is + kLeftAnyway) / (least + kLeftAnyway)};
   }
   return alike ? told : InputRows{};
 }
 
 double gain_of_signs(const MotorTrace& r, double half_period) {
-  const double least = kStands * r.quantum;
-  std::vector<double> with_speed(r.u.begin(), r.u.end());
-  for (std::size_t i = 1; i + 1 < r.size(); ++i)
-    with_speed[i] *= r.x1[i + 1] - r.x1[i - 1] < -least ? -1.0 : 1.0;
   const std::vector<double> turned = unfolded(r.u);
   double most = 1.0;
   for (const std::size_t window : balance_windows(r, half_period)) {
     const Balance balance(r, window);
-    const double as_it_is = balance.left(r.u);
-    for (const std::vector<double>* const u :
-         std::initializer_list<const std::vector<double>*>{&with_speed, &turned})
-      if (!u->empty()) most = std::max(most, as_it_is / balance.left(*u));
+    double left = balance.left_with_signs(r.u);
+    if (!turned.empty()) left = std::min(left, balance.left(turned));
+    if (left > 0.0) most = std::max(most, balance.left(r.u) / left);
   }
   return most;
 }

@@ -24,6 +24,9 @@ class Balance {
   /// @param rows  that it is moved by, at most kMostMovedRows to either side
   double left(std::span<const double> u, int rows = 0) const;
 
+  /// The same where u has lost its sign and each window takes the one that fits.
+  double left_with_signs(std::span<const double> size) const;
+
   /// The same where x1 is taken for a speed: M ẋ1 + D x1 + F sign(x1) + C.
   double left_of_speed(std::span<const double> u) const;
 
@@ -46,11 +49,11 @@ struct InputRows {
   double gain = 1.0;  ///< what is left as it stands, over what is left then
 };
 
-/// As the window sees it that tells most, where all that tell move u to an earlier time; a later one may be a
-/// delay of the drive, and is not told.
+/// As the window sees it that tells most, where all that tell move u to one side. One that is moved to a
+/// later time may be a delay of the drive.
 InputRows best_input_rows(const MotorTrace& recording, double half_period);
 
-/// What is left of u, over what is left of it with the sign of the speed, or with a sign that turns where it
+/// What is left of u, over what is left of it with the signs that fit, or with a sign that turns where it
 /// touches 0, whichever is less, most of all windows: of a magnitude far above 1.
 double gain_of_signs(const MotorTrace& recording, double half_period);
 

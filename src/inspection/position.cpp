@@ -33,11 +33,6 @@ bool is_power_of_two(double counts) {
   return counts > 50.0 && near(counts, std::exp2(std::round(std::log2(counts))));
 }
 
-bool is_usual(double counts) {
-  return is_power_of_two(counts) || std::any_of(kDecimalCounts.begin(), kDecimalCounts.end(),
-                                                [&](double usual) { return near(counts, usual); });
-}
-
 constexpr double kMostCounts = 1 << 30;    ///< a turn
 constexpr double kFinestSlide = 0.99e-10;  ///< [m]
 
@@ -100,6 +95,11 @@ Finding mended_jumps(const Material& m) {
 }
 
 }  // namespace
+
+bool is_usual(double counts) {
+  return is_power_of_two(counts) || std::any_of(kDecimalCounts.begin(), kDecimalCounts.end(),
+                                                [&](double usual) { return near(counts, usual); });
+}
 
 Finding check_position_unit(const Material& m, RecordingFacts&) {
   const double q = m.recording.quantum, turn = 2.0 * std::numbers::pi;

@@ -47,6 +47,9 @@ inline bool whole_numbers(std::span<const double> samples) {
   return std::all_of(samples.begin(), samples.end(), [](double v) { return v == std::round(v); });
 }
 
+/// Whether encoders are made with so many counts per turn: a power of two, or a round number.
+bool is_usual(double counts);
+
 /// Where u cannot be what drives the motor: a commanded position, a duty far beyond one. Nothing: it may be.
 /// @param found  what is told of u in any case
 std::optional<Finding> impossible_input(const Material& m, const std::string& found);

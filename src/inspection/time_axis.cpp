@@ -130,6 +130,12 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
     return pc_clock(m, off);
   }
   if (!m.rows.skipped.empty()) return skipped_rows(m);
+  const bool of_clock = std::any_of(m.rows.assumed.begin(), m.rows.assumed.end(),
+                                    [](const Remark& r) { return r.code() == "table.clock"; });
+  if (facts.rate < kSlowest && of_clock)
+    return {kTimeRule, Severity::kSpoils,
+            fmt::format("a row in {:.4g} s: slower than a drive moves", s.median),
+            "record at 50 Hz or more, 200 Hz for a gap"};
   if (facts.rate < kSlowest || facts.rate > kFastest)
     return {kTimeRule, Severity::kSpoils,
             fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,

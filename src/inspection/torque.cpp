@@ -151,6 +151,10 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
   facts.hangs_at = hanging_angle(m);
   const char* const units = m.coordinates.rotational() ? "kg m², N·m s, N·m" : "kg, N s/m, N";
   const auto number = [](double value) { return value > 0.0 ? figure(value) : "too small to be seen"; };
+  const std::string found =
+      fmt::format("as one body: inertia {}, damping {}, friction {}, each times torque_constant in {}",
+                  number(rough.inertia), number(rough.damping), number(rough.friction), units);
+  if (auto moved = seeming_rows(m, facts.uniform && !m.resampled, found)) return *std::move(moved);
   if (!(rough.inertia > 0.0) && !(rough.damping > 0.0)) {
     const char* const unseen = "no inertia and no damping is seen in how x1 answers u";
     if (const auto hanging = with_gravity(m, trace))
@@ -165,10 +169,6 @@ Finding check_scale(const Material& m, RecordingFacts& facts) {
             facts.work_cosine > 0.0 ? "add faster parts to the excitation"
                                     : "look at the sign of u; add faster parts to the excitation"};
   }
-  const std::string found =
-      fmt::format("as one body: inertia {}, damping {}, friction {}, each times torque_constant in {}",
-                  number(rough.inertia), number(rough.damping), number(rough.friction), units);
-  if (auto late = seeming_rows(m, facts.uniform && !m.resampled, found)) return *std::move(late);
   if (rough.inertia > 0.0 && rough.inertia_over_left > kSeen)
     return {"scale of u", Severity::kFine, found + "; compare with the sheets of motor and load", ""};
   const std::string drowned =

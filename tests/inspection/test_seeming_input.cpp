@@ -54,6 +54,23 @@ TEST(SeemingInput, AMagnitudeIsOne) {
   }
 }
 
+/// Where its sign turns in a step, nothing touches 0.
+TEST(SeemingInput, AMagnitudeOfStepsIsOne) {
+  TestDrive drive;
+  drive.m2 = 0.0, drive.Fc1 = 0.02;
+  const auto steps = [](double t) { return std::sin(9.0 * t) > 0.0 ? 0.5 : -0.5; };
+  const auto waves = [](double t) {
+    return (std::sin(9.0 * t) > 0.0 ? 0.5 : -0.5) + 0.1 * std::sin(31.0 * t);
+  };
+  for (const Rows& rows : {rig(steps, drive, 14), rig(waves, drive, 14)}) {
+    const Inspection i = inspected(changed(rows, [](Rows& r) {
+      for (double& u : r.u) u = std::abs(u);
+    }));
+    if (finding(i, "input").found.find("all the time") != std::string::npos) continue;  // one level is none
+    EXPECT_THAT(finding(i, "input").found, HasSubstr("a magnitude")) << i.report();
+  }
+}
+
 TEST(SeemingInput, APositiveOneWithItsSignIsNone) {
   const Inspection i = inspected(rig([](double t) { return 0.3 * (1.0 - std::cos(6.0 * t)); }));
   EXPECT_NE(finding(i, "input").severity, Severity::kSpoils) << i.report();
@@ -72,6 +89,27 @@ TEST(SeemingInput, ARowThatHasWhatActedBeforeIsTold) {
     options.input_rows = -1;
     EXPECT_NE(finding(inspected(moved, options), "scale of u").severity, Severity::kSpoils);
   }
+}
+
+/// What acts later than it stands may be the drive's own delay: told, and nothing is spoilt.
+TEST(SeemingInput, ARowThatHasWhatActsLaterIsNoted) {
+  TestDrive one_body;
+  one_body.m2 = 0.0;
+  const auto lively = [](double t) { return 0.5 * std::sin(6.0 * t) + 0.5 * std::sin(150.0 * t); };
+  const Inspection i = inspected(changed(rig(lively, one_body), [](Rows& r) {
+    r.u.erase(r.u.begin());
+    r.u.push_back(r.u.back());
+  }));
+  EXPECT_EQ(finding(i, "scale of u").severity, Severity::kNote) << i.report();
+  EXPECT_THAT(finding(i, "scale of u").advice, HasSubstr("--input-rows 1"));
+}
+
+/// A damped drive follows u as a speed does; what counts as an encoder is an angle.
+TEST(SeemingInput, CountsOfAnEncoderAreNoSpeed) {
+  TestDrive damped;
+  damped.m2 = 0.0, damped.d1 = 1.5;
+  const auto input = [](double t) { return 0.5 * std::sin(6.0 * t) + 0.3 * std::sin(21.3 * t); };
+  EXPECT_NE(finding(inspected(rig(input, damped, 16)), "unit of x1").severity, Severity::kSpoils);
 }
 
 TEST(SeemingInput, ASpeedInPlaceOfAPositionIsTold) {
