@@ -7,8 +7,8 @@
 
 #include "base/shown.h"
 #include "base/text.h"
-#include "gapscope/base/errors.h"
 #include "recording/axes.h"
+#include "recording/column_name.h"
 
 namespace gapscope::cli {
 namespace {
@@ -39,31 +39,30 @@ std::vector<std::string> alternatives(const std::string& names) {
   return all;
 }
 
+/// Whether two names are of the same words: "Present Load" and "present_load", "pos" and "pos (1)".
+bool is_same(const std::string& column, const std::string& name) {
+  const auto words = [](const std::string& of) {
+    return words_of_name(of.substr(0, of.find_first_of("[(", 1)));
+  };
+  return column == name || words(column) == words(name);
+}
+
 /// The unit of a column of that name; the preset's for it, unless that name has one of its own.
 std::string unit_of(const std::string& name, const char* names, const char* unit) {
   for (const Alternative& a : alternatives_of(names))
-    if (a.name == name && !a.unit.empty()) return a.unit;
+    if (is_same(name, a.name) && !a.unit.empty()) return a.unit;
   return unit;
 }
 
-/// The first of these names that the file has; empty where it has none.
+/// The first of these names that the file has, to the letter or else in its words; empty where it has none.
 std::string found_of(const char* names, const std::vector<std::string>& there) {
-  for (const std::string& name : alternatives(names))
+  const auto all = alternatives(names);
+  for (const std::string& name : all)
     if (contains(there, name)) return name;
+  for (const std::string& name : all)
+    for (const std::string& column : there)
+      if (is_same(column, name)) return column;
   return "";
-}
-
-/// @throws ConfigError where the file has none of these names
-std::string column_of(const char* names, const std::vector<std::string>& there, const RecordingArguments& a,
-                      const char* option) {
-  const std::string found = found_of(names, there);
-  if (!found.empty()) return found;
-  throw ConfigError(
-      a.file,
-      fmt::format(
-          "has no column {}, expected one of them for the preset {}, or its own name behind {}; it has {}",
-          fmt::join(alternatives(names), ", "), a.preset, option,
-          printable(fmt::format("{}", fmt::join(there, ", ")), 200)));
 }
 
 const DrivePreset* preset_of(const RecordingArguments& a) {
@@ -71,7 +70,10 @@ const DrivePreset* preset_of(const RecordingArguments& a) {
                       [&](const DrivePreset& p) { return a.preset == p.name; });
 }
 
-bool is_among(const std::string& name, const char* names) { return contains(alternatives(names), name); }
+bool is_among(const std::string& name, const char* names) {
+  const auto all = alternatives(names);
+  return std::any_of(all.begin(), all.end(), [&](const std::string& known) { return is_same(name, known); });
+}
 
 /// Whether the input is the quantity that the preset speaks of.
 bool has_its_input(const RecordingArguments& a, const DrivePreset& p) {
@@ -99,21 +101,22 @@ RecordingArguments with_preset(RecordingArguments a) {
   if (a.preset.empty()) return a;
   const DrivePreset* const preset = preset_of(a);
   const auto there = recorded_names(a.file);
-  const auto column = [&](std::string& given, const char* names, const char* option) {
-    if (given.empty() && *names != '\0') given = column_of(names, there, a, option);
+  const auto column = [&](std::string& given, const char* names) {
+    if (given.empty()) given = found_of(names, there);
   };
   if (a.time == "t") a.time.clear();
-  column(a.time, preset->time, "--time");
-  if (has_its_input(a, *preset)) {
-    column(a.input, preset->input, "--input");
-    column(a.voltage, preset->voltage, "--voltage");
+  column(a.time, preset->time);
+  if (a.target.empty()) column(a.input, preset->input);
+  column(a.position, preset->position);
+  if (!a.input.empty() && has_its_input(a, *preset)) {
+    column(a.voltage, preset->voltage);
     if (a.units.input.empty()) a.units.input = unit_of(a.input, preset->input, preset->input_unit);
     if (!a.registers.input.is_one() && a.input_register.empty())
       a.registers.input.bits = preset->input_register;
   }
-  column(a.position, preset->position, "--position");
-  if (a.units.time.empty()) a.units.time = preset->time_unit;
-  if (a.units.position.empty())
+  if (a.time.empty()) a.time = "t";
+  if (a.units.time.empty() && is_among(a.time, preset->time)) a.units.time = preset->time_unit;
+  if (a.units.position.empty() && !a.position.empty())
     a.units.position = unit_of(a.position, preset->position, preset->position_unit);
   if (a.units.voltage.empty() && !a.voltage.empty())
     a.units.voltage = unit_of(a.voltage, preset->voltage, preset->voltage_unit);
@@ -132,15 +135,28 @@ std::vector<std::string> preset_remarks(const RecordingArguments& a) {
   if (a.preset.empty()) return remarks;
   const DrivePreset& p = *preset_of(a);
   if (const std::string left = options_of_input(a, p); !has_its_input(a, p) && !left.empty())
-    remarks.push_back(a.target.empty()
-                          ? fmt::format("the preset {} knows the unit of {}, not of {}: u is read as it is. "
-                                        "Where it is the same register, add {}",
-                                        p.name, fmt::join(alternatives(p.input), ", "), shown(a.input), left)
-                          : fmt::format("the preset {} says nothing of what a controller makes of {}: its "
-                                        "supply is not read. Where the controller sets a duty, add {}",
-                                        p.name, shown(a.target), left));
+    remarks.push_back(
+        a.target.empty()
+            ? fmt::format(
+                  "the preset {} knows the unit of {}, not of {}: u is read as it stands. Where it is "
+                  "the same register, add {}",
+                  p.name, fmt::join(alternatives(p.input), ", "), shown(a.input), left)
+            : fmt::format("the preset {} says nothing of what a controller makes of {}: its supply is not "
+                          "read. Where the controller sets a duty, add {}",
+                          p.name, shown(a.target), left));
+  const auto there = recorded_names(a.file);
+  if (a.input.empty() && a.target.empty() && found_of(p.input, there).empty()) {
+    remarks.push_back(
+        fmt::format("the preset {} knows {} as the input, which is not there: what is taken in its "
+                    "place is read as it stands",
+                    p.name, fmt::join(alternatives(p.input), ", ")));
+    return remarks;
+  }
+  if (has_its_input(a, p) && a.voltage.empty() && *p.voltage != '\0' && found_of(p.voltage, there).empty())
+    remarks.push_back(
+        "there is no voltage of the supply: u is the duty alone (--voltage NAME where a column has it)");
   if (has_its_input(a, p) && a.units.input.empty()) {
-    const std::string input = a.input.empty() ? found_of(p.input, recorded_names(a.file)) : a.input;
+    const std::string input = a.input.empty() ? found_of(p.input, there) : a.input;
     if (unit_of(input, p.input, p.input_unit) != p.input_unit)
       remarks.push_back(fmt::format("{} is read as {}", shown(input), p.other_unit));
   }

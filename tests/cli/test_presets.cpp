@@ -46,7 +46,7 @@ TEST_P(Preset, ReadsTheDrivesOwnColumns) {
   EXPECT_THAT(check.out, HasSubstr("as a motor in rad may move"));
   place.file("other.csv", "a,b,c\n1,2,3\n");
   EXPECT_THAT(place.run(std::string("check other.csv --preset ") + c.name).err,
-              HasSubstr("expected one of them for the preset"));
+              HasSubstr("which is not there: what is taken in its place is read as it stands"));
 }
 
 const std::vector<PresetCase> kPresetCases = {
@@ -135,7 +135,27 @@ TEST(PresetOfOtherColumns, SaysInWhichUnitALoadIsRead) {
   EXPECT_EQ(place.run("check log.csv --preset dynamixel --input-unit 0.00113").err, "");
   place.file("none.csv", "timestamp,duty,position\n0,1,2\n");
   EXPECT_THAT(place.run("check none.csv --preset dynamixel").err,
-              HasSubstr("--input; it has timestamp, duty, position"));
+              HasSubstr("which is not there: what is taken in its place is read as it stands"));
+}
+
+/// A preset's names are words: what they are written with, and the number of a servo behind them, is nothing.
+TEST(PresetOfOtherColumns, KnowsItsNamesByTheirWords) {
+  const testing::Rows rows = testing::rig();
+  std::string text = "timestamp,pos (1),load (1),pos (2),load (2)\n";
+  for (std::size_t i = 0; i < rows.t.size(); ++i) {
+    const double load = std::round(800.0 * rows.u[i]);
+    text += fmt::format("{:.9g},{},{},2047,8\n", rows.t[i], std::round(4096.0 / 6.283185307 * rows.x1[i]),
+                        load < 0.0 ? 1024.0 - load : load);
+  }
+  Workplace place;
+  place.file("log.csv", text);
+  const auto init = place.run("init log.csv --model gap --preset feetech");
+  EXPECT_EQ(init.status, 0) << init.err;
+  EXPECT_THAT(init.err, HasSubstr("u is the duty alone"));
+  const std::string yaml = testing::text_of(place.folder() / "log.yaml");
+  for (const char* declared : {"input: \"load (1)\"", "units: {input: \"permille\", position: \"counts\"}",
+                               "registers: {input: {sign_bit: 10}}", "encoder: {bits: 12}"})
+    EXPECT_THAT(yaml, HasSubstr(declared));
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Preset, ::testing::ValuesIn(kPresetCases), [](const auto& tested) {
