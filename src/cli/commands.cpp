@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <ostream>
 
 #include "base/shell_word.h"
+#include "base/text.h"
 #include "cli/console.h"
+#include "config/starter.h"
 
 namespace gapscope::cli {
 
@@ -79,10 +82,33 @@ void warn_of_idle_settings(const ConfigArguments& arguments, const Configuration
   }
 }
 
+/// Whether a file is a recording, by its ending: none that configurations have. JSON may be either.
+bool is_recording(const std::string& file) {
+  const std::vector<std::string> of_configurations = {"", ".yaml", ".yml", ".json", ".conf", ".cfg"};
+  return !contains(of_configurations, std::filesystem::path(file).extension().string());
+}
+
+/// A recording in place of a configuration: what `init` writes of it, told in two lines.
+Configuration configuration_of(const std::string& recording, const std::vector<Setting>& settings) {
+  RecordingArguments arguments;
+  arguments.file = recording;
+  const RecordingArguments one = arguments.each_axis().front();
+  const std::filesystem::path as_written = std::filesystem::path(recording).replace_extension(".yaml");
+  const std::string folder = as_written.parent_path().string();
+  const Starter starter = starter_configuration(one.configuration(), one.encoder(), one.coordinates(),
+                                                folder.empty() ? "." : folder, {});
+  print_warnings(starter.spoiling);
+  if (const std::string told = one.told_by_names(); !told.empty()) say("units", told);
+  tell_assumed(starter.assumed, one.coordinates());
+  say("model", starter.model + " (gapscope init " + shell_word(recording) + " writes it down)");
+  return parse_configuration(starter.yaml, as_written.string(), settings);
+}
+
 void with_settings(const std::string& file, const std::vector<Setting>& settings,
                    const std::function<void(Configuration&)>& work) {
   telling_settings(settings, [&] {
-    Configuration c = load_configuration(file, settings);
+    Configuration c =
+        is_recording(file) ? configuration_of(file, settings) : load_configuration(file, settings);
     work(c);
   });
 }

@@ -37,7 +37,7 @@ void add_man(CommandLine& app);
 inline constexpr int kSpoiltRecording = 3;
 
 /// What stands in the help of every command that takes a configuration.
-inline constexpr const char* kConfigHelp = "configuration (YAML)";
+inline constexpr const char* kConfigHelp = "configuration (YAML); or a recording, read as init reads it";
 
 /// In the help of every command that draws.
 inline constexpr const char* kUntitledHelp =

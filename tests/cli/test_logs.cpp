@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -82,6 +83,12 @@ const std::vector<LogFile> kLogFiles = {
                        return fmt::format("{},{:.6f},{:.10f}", i, r.u[i], r.x1[i]);
                      }),
      "", "'time' in ms, as it goes on", "units: {time: \"ms\"}"},
+    {"register", "t,current_raw,angle\n" + log_of([](const testing::Rows& r, std::size_t i) {
+                   return fmt::format("{:.4f},{},{:.10f}", r.t[i],
+                                      (65536 + static_cast<int>(std::lround(1000.0 * r.u[i]))) % 65536,
+                                      r.x1[i]);
+                 }),
+     "", "'current_raw' is a signed register of 16 bits", "registers: {input: 16}"},
     {"wrapped", "t,u,x1\n" + log_of([](const testing::Rows& r, std::size_t i) {
                   const double x = r.x1[i] + 3.1, turn = 2.0 * std::numbers::pi;
                   return fmt::format("{:.4f},{:.6f},{:.10f}", r.t[i], r.u[i],
@@ -132,6 +139,23 @@ TEST(Logs, OfUsersGoInWithAtMostOneOption) {
   for (const char* servo : {"s6_a_abs.csv", "s6_b_abs.csv"})
     EXPECT_THAT(place.run("check " + (folder / "robots/abs_current" / servo).string()).out,
                 HasSubstr("spoils      input"));
+}
+
+/// A recording in place of a configuration is read as init reads it.
+TEST(Logs, DetectTakesARecordingAsInitDoes) {
+  Workplace place;
+  place.file("log.csv", kLogFiles.front().text);
+  const auto alone = place.run("detect log.csv -o alone");
+  EXPECT_EQ(alone.status, 0) << alone.err;
+  EXPECT_THAT(alone.out, AllOf(HasSubstr("table       units in line 2"), HasSubstr("gapscope init log.csv")));
+  EXPECT_EQ(place.run("init log.csv").status, 0);
+  EXPECT_EQ(place.run("detect log.yaml -o written").status, 0);
+  const auto read = [&](const char* folder) {
+    return nlohmann::json::parse(testing::text_of(place.folder() / folder / "result.json"))["model_free"];
+  };
+  EXPECT_EQ(read("alone"), read("written"));
+  place.file("log.parquet", "PAR1");
+  EXPECT_THAT(place.run("detect log.parquet").err, HasSubstr("read_parquet(FILE).to_csv"));
 }
 
 TEST(Logs, AUnitOfSomethingElseIsRefusedWithWhatToDo) {
