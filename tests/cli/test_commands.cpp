@@ -51,7 +51,7 @@ TEST(Commands, RunReplacesAnOldReportAndSaysWhatItFound) {
   place.file("reports/quick/mine.txt", "kept");
   const auto run = place.run("run c.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
-  for (const char* word : {"reports/quick", "model-free", "reference", "load side", "mrad"})
+  for (const char* word : {"reports/quick", "model-free", "fitted", "load side", "mrad"})
     EXPECT_THAT(run.out, HasSubstr(word));
   EXPECT_THAT(run.err, Not(HasSubstr("...")));  // no terminal, no progress
   EXPECT_THAT(run.out, Not(HasSubstr("warning")));
