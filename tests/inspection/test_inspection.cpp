@@ -51,7 +51,7 @@ TEST(Inspection, AStepThatIsARoundNumberOfRadiansMayBeOneOfMetres) {
   for (double& x : rows.x1) x = 5e-8 * std::round(x / 5e-8);
   EXPECT_THAT(finding(inspected(rows), "encoder").found, HasSubstr("a round number"));
   EXPECT_THAT(finding(inspected(good()), "encoder").found,
-              HasSubstr("no gap below 20 steps, 479.4 µrad, is told"));
+              HasSubstr("no gap below 20 steps, 479.4 µrad, is found"));
 }
 
 TEST(Inspection, ARegisterWithoutItsSignIsSeenBehindUnitAndSupply) {
@@ -244,7 +244,7 @@ TEST(Inspection, WrapsAndSpikesAreMendedAndNoted) {
     for (double& x : r.x1) x = x < 0.05 ? x + 2.0 * kPi : x;
   }));
   EXPECT_EQ(finding(wrapped, "jumps").severity, Severity::kNote) << wrapped.report();
-  EXPECT_THAT(finding(wrapped, "jumps").found, HasSubstr("begins anew"));
+  EXPECT_THAT(finding(wrapped, "jumps").found, HasSubstr("starts again"));
   EXPECT_NEAR(wrapped.facts.travel, inspected(good()).facts.travel, 1e-6);
   const Inspection spike = inspected(changed([](Rows& r) { r.x1[4321] += 0.3; }));
   EXPECT_EQ(finding(spike, "jumps").severity, Severity::kNote) << spike.report();
