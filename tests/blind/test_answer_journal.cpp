@@ -101,7 +101,7 @@ TEST(AnswerJournal, OfAnEarlierFormatIsToldToBeRemoved) {
   std::ofstream(written.path()) << kCheck << "\n{}\n";
   EXPECT_THAT(written.refused(), HasSubstr(".partial:1: begins with 'manifest 0123, gapscope 1.0', expected "
                                            "'gapscope.answers_so_far/2, manifest 0123, gapscope 1.0'; "
-                                           "remove it to begin anew"));
+                                           "remove it to start again"));
 }
 
 TEST(AnswerJournal, RemovesNothingThatCameInItsPlace) {

@@ -60,9 +60,9 @@ TEST(Certificate, TheEndOfTheTableIsNoLimit) {
   StepLimits limits;
   limits.integrator = "Euler", limits.largest = 0.02;
   c.limits = {limits};
-  EXPECT_THAT(certificate_text(c), HasSubstr("stands is at least 20 ms, the largest that was tried; "));
+  EXPECT_THAT(certificate_text(c), HasSubstr("stable step is at least 20 ms, the largest that was tried; "));
   c.errors.push_back(row(0.05));
-  EXPECT_THAT(certificate_text(c), HasSubstr("stands is 20 ms (beyond, the error exceeds"));
+  EXPECT_THAT(certificate_text(c), HasSubstr("stable step is 20 ms (beyond, the error exceeds"));
 }
 
 TEST(LeftOut, ThatDoesLittleLeavesTheStepsInTheTable) {
