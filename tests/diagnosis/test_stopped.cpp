@@ -118,7 +118,7 @@ TEST(StoppedDiagnosis, BeginsNoSearchForTheGap) {
   DiagnosisOptions options;
   options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   options.progress = [&](const std::string& what) {
-    searches += what.starts_with("looking for the gap anew");
+    searches += what.starts_with("looking for the gap again");
   };
   ReferenceModel sheet = pair.sheet;
   sheet.parameters[place::kGap] = ParameterSetting::sought(kNaN);  // without a value to begin with
@@ -141,7 +141,7 @@ TEST(StoppedDiagnosis, CutsShortASearchForTheGap) {
   DiagnosisOptions options;
   options.fit.work = std::make_shared<std::atomic<std::int64_t>>(0);
   options.progress = [&](const std::string& what) {
-    if (is_asked && what.starts_with("looking for the gap anew")) request_finish();
+    if (is_asked && what.starts_with("looking for the gap again")) request_finish();
   };
   ReferenceModel sheet = pair.sheet;
   sheet.parameters[place::kGap] = ParameterSetting::sought(kNaN);
