@@ -9,6 +9,7 @@
 
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
+#include "recording/let_go.h"
 #include "recording/limits.h"
 #include "recording/lost_rows.h"
 #include "recording/recorded_rows.h"
@@ -88,39 +89,6 @@ double sampling_interval(const RecordedRows& table) {
 
 namespace internal::recording {
 namespace {
-
-constexpr double kRests = 0.3;         ///< so long at the end of a file, at least [s]
-constexpr double kRestsWithin = 0.01;  ///< of the way that the drive has gone
-constexpr double kFarOff = 0.25;       ///< of that way, off the goal: a controller at work would move it
-constexpr double kFarther = 3.0;       ///< over the error of any other rest
-
-double error_at(const CommandRows& rows, std::size_t i) {
-  return std::abs(rows.target[i] - rows.position[i]);
-}
-
-/// Largest error at which the drive has rested before a row.
-double held_error(const CommandRows& rows, std::size_t before, double within) {
-  double most = 0.0;
-  for (std::size_t i = 0, begin = 0; i < before; ++i) {
-    while (std::abs(rows.position[begin] - rows.position[i]) > within) ++begin;
-    if (rows.t[i] - rows.t[begin] >= kRests) most = std::max(most, error_at(rows, i));
-  }
-  return most;
-}
-
-/// When a drive was let go that comes to rest far off its goal, farther than it ever held: from where its
-/// error was least before that, which then grew [s]. Infinite: it is held to the end.
-double let_go_at(const CommandRows& rows) {
-  const auto [low, high] = std::minmax_element(rows.position.begin(), rows.position.end());
-  const double way = *high - *low, within = kRestsWithin * way;
-  const double error = error_at(rows, rows.t.size() - 1);
-  std::size_t i = rows.t.size() - 1;
-  while (i > 0 && std::abs(rows.position[i - 1] - rows.position.back()) <= within) --i;
-  if (!(rows.t.back() - rows.t[i] >= kRests) || !(error > kFarOff * way)) return kInfinity;
-  while (i > 0 && error_at(rows, i - 1) > 0.5 * error) --i;
-  while (i > 0 && error_at(rows, i - 1) <= error_at(rows, i)) --i;
-  return error > kFarther * held_error(rows, i, within) ? rows.t[i] : kInfinity;
-}
 
 CommandRows command_of(const RecordedRows& table, const ReadOptions& options) {
   CommandRows rows = {table.t, table.target, table.x1, table.supply, options.gain_times};
