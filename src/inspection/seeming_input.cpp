@@ -108,6 +108,10 @@ std::optional<Finding> seeming_rows(const Material& m, bool uniform, const std::
 std::optional<Finding> seeming_position(const Material& m) {
   const MotorTrace trace = m.recording.motor_trace();
   if (m.commanded || !m.moves() || m.rows.integrated) return {};
+  const double of_input = half_period_of(m.recording.u, m.recording.dt);
+  if (m.signal.half_periods < signals::kFewestHalfPeriods &&
+      m.recording.duration() < static_cast<double>(signals::kFewestHalfPeriods) * of_input)
+    return {};
   const auto [low, high] = std::minmax_element(m.recording.u.begin(), m.recording.u.end());
   if (*low == *high) return {};
   // Counts of a usual encoder are of an angle: a damped drive follows u as a speed does.
@@ -116,8 +120,7 @@ std::optional<Finding> seeming_position(const Material& m) {
     return {};
   double best = kInfinity;
   // Turns of a speed that was differenced are of its noise: those of u count as well.
-  for (const std::size_t window : balance_windows(
-           trace, std::max(m.signal.half_period, half_period_of(m.recording.u, m.recording.dt)))) {
+  for (const std::size_t window : balance_windows(trace, std::max(m.signal.half_period, of_input))) {
     const Balance balance(trace, window);
     const double left = balance.left_of_speed(m.recording.u);
     if (left < kExplained) best = std::min(best, left / balance.left(m.recording.u));

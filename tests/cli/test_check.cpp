@@ -53,7 +53,8 @@ TEST(Check, WritesNumbersAsAReaderDoesAndSaysWhereNoUnitIsDeclared) {
   for (double& u : rows.u) u = std::fmod(std::round(885.0 * u) + 65536.0, 65536.0);
   place.file("register.csv", rows.csv());
   const auto check = place.run("check register.csv");
-  EXPECT_THAT(check.out, HasSubstr("0 to 65533 (no unit declared: --input-unit), noise"));
+  EXPECT_THAT(check.out, HasSubstr("'u' is a signed register of 16 bits"));
+  EXPECT_THAT(check.out, HasSubstr("-515 to 515 (no unit declared: --input-unit), noise"));
   EXPECT_THAT(check.out, ::testing::Not(HasSubstr("e+")));
 }
 
