@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sliding_mode/hidden_gap.h"
 #include "sliding_mode/verdict/informative.h"
 #include "sliding_mode/verdict/pool.h"
 #include "sliding_mode/visible_gap.h"
