@@ -54,7 +54,7 @@ TEST(Campaign, WritesAStoreAReportAndWhatIsNeeded) {
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("reports/small/results.sqlite"), HasSubstr("runs        6 (6 of them now)"),
-                    HasSubstr("\nTake the fitted model, told "), HasSubstr("\nThat costs, in passes over ")));
+                    HasSubstr("\nTake the fitted model, given "), HasSubstr("\nThat costs, in passes over ")));
   const auto content = place.content();
   for (const char* file :
        {"report.md", "campaign.json", "timing.json", "cost.png", "map_2_1.png", "along_1.png", "along_2.png"})

@@ -173,7 +173,7 @@ TEST(Init, ATorqueConstantThatIsToldScalesWhatWasRead) {
   EXPECT_EQ(place.run(init + "--inertia 8.8e-4 -o sheet.yaml").status, 0);
   const std::string sheet = testing::text_of(place.folder() / "sheet.yaml");
   EXPECT_THAT(sheet,
-              AllOf(HasSubstr("motor_inertia: {value: 0.00088, estimate: true}  # kg m^2; begun as told"),
+              AllOf(HasSubstr("motor_inertia: {value: 0.00088, estimate: true}  # kg m^2; begun as given"),
                     Not(HasSubstr("anchor"))));
   EXPECT_EQ(place.run("init r.csv --model gap --torque-constant 0.172 --inertia 8.8e-4 -o gap.yaml").status,
             0);

@@ -134,7 +134,7 @@ TEST(Trust, ARejectedModelHasNoIntervalInTheTerminalTheReportOrTheComparison) {
   const auto fit = place.run("fit turned.yaml");
   ASSERT_EQ(fit.status, 0) << fit.err;
   EXPECT_THAT(fit.out, HasSubstr("gap         The gap is not known.\n"));
-  EXPECT_THAT(fit.out, HasSubstr("next        Check the sign and the unit of u"));
+  EXPECT_THAT(fit.out, HasSubstr("next        Check the sign and the unit of the input u"));
   EXPECT_THAT(fit.out, Not(HasSubstr("["))) << "an interval";
   const std::string report = text_of(place.folder() / "reports/turned/report.md");
   EXPECT_THAT(report, Not(HasSubstr(" ± ")));
