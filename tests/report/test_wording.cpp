@@ -108,15 +108,15 @@ TEST(Headline, OfAFitThatDidNotConvergeHasNoInterval) {
 TEST(Accuracy, OfARejectedModelSpeaksOfNoInterval) {
   RunResult run = rejected_run();
   run.model_free.reset();
-  EXPECT_EQ(accuracy(run), "The fitted model estimate is 0.15 % above the simulated gap.");
+  EXPECT_EQ(accuracy(run), "The fitted gap is 0.15 % above the simulated gap.");
 }
 
 TEST(Accuracy, SaysWhetherTheIntervalHoldsTheTruth) {
   RunResult run = sample_run({.samples = 6000});
   EXPECT_EQ(
       accuracy(run),
-      "The model-free estimate is 0.60 % above the simulated gap; its interval holds it. The fitted model "
-      "estimate is 0.15 % above the simulated gap; its interval holds it.");
+      "The gap read without a model is 0.60 % above the simulated gap; its interval holds it. The fitted gap "
+      "is 0.15 % above the simulated gap; its interval holds it.");
   run.simulated_gap = 0.02;
   EXPECT_NE(accuracy(run).find("below the simulated gap; its interval misses it"), std::string::npos);
   run.simulated_gap = kNaN;
