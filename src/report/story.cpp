@@ -111,7 +111,8 @@ std::string recordings_of(const Diagnosis& d) {
 
 /// Of these the first that there is.
 std::string carrying_picture(const DriveStory& s) {
-  for (const char* file : {"diagnosis_traces.png", "lost_motion_loop.png", "reversal_shelf.png", "overview.png"})
+  for (const char* file :
+       {"diagnosis_traces.png", "lost_motion_loop.png", "reversal_shelf.png", "overview.png"})
     for (const FigureData& figure : s.figures)
       if (figure.file == file && figure.missing.empty()) return file;
   return "";

@@ -85,8 +85,8 @@ std::string error_sentence(const RunResult& run, const std::string& name, double
   if (!std::isfinite(value) || !std::isfinite(truth)) return "";
   const bool holds = ci95.low <= truth && truth <= ci95.high;
   const char* interval = !known(ci95) ? "" : holds ? "; its interval holds it" : "; its interval misses it";
-  return fmt::format("The {} is {} % {} the {}{}.", name,
-                     plain_number(100.0 * std::abs(value / truth - 1.0)), value < truth ? "below" : "above",
+  return fmt::format("The {} is {} % {} the {}{}.", name, plain_number(100.0 * std::abs(value / truth - 1.0)),
+                     value < truth ? "below" : "above",
                      simulated ? "simulated gap" : "gap read off the x1–x2 map", interval);
 }
 
@@ -218,7 +218,8 @@ const FittedParameter* parameter(const RunResult& run, const std::string& key) {
 
 std::string accuracy(const RunResult& run) {
   std::string text;
-  if (run.model_free) text += error_sentence(run, "gap read without a model", run.model_free->gap, run.model_free->ci95);
+  if (run.model_free)
+    text += error_sentence(run, "gap read without a model", run.model_free->gap, run.model_free->ci95);
   if (const FittedParameter* gap = parameter(run, "gap"); gap != nullptr && gap->estimated)
     text += (text.empty() ? "" : " ") +
             error_sentence(run, "fitted gap", gap->value, run.reference->shown_interval(*gap));

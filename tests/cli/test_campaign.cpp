@@ -52,9 +52,10 @@ TEST(Campaign, WritesAStoreAReportAndWhatIsNeeded) {
   const auto run = with_campaign(place, 1).run("campaign c.yaml");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("reports/small/results.sqlite"), HasSubstr("runs        6 (6 of them now)"),
-                    HasSubstr("\nTake the fitted model, given "), HasSubstr("\nThat costs, in passes over ")));
+  EXPECT_THAT(
+      run.out,
+      AllOf(HasSubstr("reports/small/results.sqlite"), HasSubstr("runs        6 (6 of them now)"),
+            HasSubstr("\nTake the fitted model, given "), HasSubstr("\nThat costs, in passes over ")));
   const auto content = place.content();
   for (const char* file :
        {"report.md", "campaign.json", "timing.json", "cost.png", "map_2_1.png", "along_1.png", "along_2.png"})

@@ -287,20 +287,16 @@ TEST_F(UserFiles, AReportIsOfOneDrive) {
   }
   place_.file("d.yaml", text_of(at("d.yaml")) + "encoder: {bits: 18}\n");
   const Outcome detected = place_.run("detect d.yaml -o both");
-  EXPECT_THAT(detected.err,
-              HasSubstr("The diagnosis in this folder was dropped, as it was made from "
-                        "another configuration."));
+  EXPECT_THAT(detected.err, HasSubstr("The diagnosis in this folder was dropped, as it was made from "
+                                      "another configuration."));
   EXPECT_FALSE(fs::exists(at("both/diagnosis.json")));
-  EXPECT_THAT(text_of(at("both/report.md")),
-              HasSubstr("> The diagnosis in this folder was dropped"));
+  EXPECT_THAT(text_of(at("both/report.md")), HasSubstr("> The diagnosis in this folder was dropped"));
   ASSERT_EQ(place_.run("report both").status, 0);
-  EXPECT_THAT(text_of(at("both/report.md")),
-              HasSubstr("> The diagnosis in this folder was dropped"));
+  EXPECT_THAT(text_of(at("both/report.md")), HasSubstr("> The diagnosis in this folder was dropped"));
   place_.file("drive.csv", text_of(at("drive.csv")) + "# another copy\n");
   const Outcome diagnosed = place_.run("diagnose d.yaml -o both" + most);
-  EXPECT_THAT(diagnosed.err,
-              HasSubstr("The estimate in this folder was dropped, as it was made from "
-                        "another drive.csv."));
+  EXPECT_THAT(diagnosed.err, HasSubstr("The estimate in this folder was dropped, as it was made from "
+                                       "another drive.csv."));
   EXPECT_FALSE(fs::exists(at("both/result.json")));
 }
 

@@ -142,9 +142,8 @@ TEST(ReportFolder, KeepsTheOtherHalfOnlyOfTheSameDrive) {
   };
   EXPECT_EQ(dropped(half("2", "1")), "");
   EXPECT_THAT(dropped(half("1", "1")), HasSubstr("made from another version of gapscope"));
-  EXPECT_THAT(dropped(half("2", "3")),
-              HasSubstr("The diagnosis in this folder was dropped, as it was "
-                        "made from another c.yaml"));
+  EXPECT_THAT(dropped(half("2", "3")), HasSubstr("The diagnosis in this folder was dropped, as it was "
+                                                 "made from another c.yaml"));
   EXPECT_THAT(dropped(R"({"version": "2"})"), HasSubstr("another c.yaml"));
   EXPECT_THAT(dropped("no JSON"), HasSubstr("cannot be read"));
 }
