@@ -78,4 +78,19 @@ GapEstimate conclude(GapEvidence e) {
   return estimate;
 }
 
+std::optional<GapEvidence> narrowest(std::span<const MotorTrace> recordings,
+                                     std::span<const signals::SignalFacts> facts,
+                                     std::optional<GapEvidence> (*read)(const MotorTrace&,
+                                                                        const signals::SignalFacts&)) {
+  std::optional<GapEvidence> best;
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    auto one = read(recordings[i], facts[i]);
+    if (!one || kNormal95 * one->parts.together() > kWidest * one->gap) continue;
+    const double std = one->parts.together(), known = best ? best->parts.together() : kInfinity;
+    if (best && std::abs(one->gap - best->gap) > kNormal95 * (std + known)) return {};
+    if (std < known) best = std::move(one);
+  }
+  return best;
+}
+
 }  // namespace gapscope::internal::sliding_mode

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "gapscope/recording/recording.h"
 #include "gapscope/sliding_mode/gap_estimate.h"
+#include "signals/signal_facts.h"
 
 namespace gapscope::internal::sliding_mode {
 
@@ -45,5 +49,11 @@ constexpr double kWidest = 0.25, kNarrow = 0.125;
 /// that is known closely enough, else `inconclusive` with the reason. The trust is good where every test was
 /// passed.
 GapEstimate conclude(GapEvidence evidence);
+
+/// Of what each recording reads by itself the closest known; nothing where two contradict each other.
+std::optional<GapEvidence> narrowest(std::span<const MotorTrace> recordings,
+                                     std::span<const signals::SignalFacts> facts,
+                                     std::optional<GapEvidence> (*read)(const MotorTrace&,
+                                                                        const signals::SignalFacts&));
 
 }  // namespace gapscope::internal::sliding_mode

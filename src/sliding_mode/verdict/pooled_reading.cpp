@@ -278,15 +278,7 @@ std::optional<GapEvidence> read_one(const MotorTrace& trace, const signals::Sign
 
 std::optional<GapEvidence> read_pooled(std::span<const MotorTrace> recordings,
                                        std::span<const signals::SignalFacts> facts) {
-  std::optional<GapEvidence> best;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    auto one = read_one(recordings[i], facts[i]);
-    if (!one || kNormal95 * one->parts.together() > kWidest * one->gap) continue;
-    const double std = one->parts.together(), known = best ? best->parts.together() : kInfinity;
-    if (best && std::abs(one->gap - best->gap) > kNormal95 * (std + known)) return {};
-    if (std < known) best = std::move(one);
-  }
-  return best;
+  return narrowest(recordings, facts, read_one);
 }
 
 }  // namespace gapscope::internal::sliding_mode

@@ -198,7 +198,7 @@ struct Rise {
   double unseen = 0.0;     ///< what x1 went before the turn since the load was seen pushed [rad]
 };
 
-/// The last sample before `i` whose torque is below that share of the step, and the first behind.
+/// Width of the rise about sample `i`, by the way between kLow and kHigh of the step [rad].
 double width_at(const MotorTrace& trace, const Stroke& s, const TwoLevels& levels, std::size_t i,
                 std::size_t end) {
   const auto share = [&](std::size_t k) { return levels.share(s.direction * trace.u[k]); };
@@ -339,8 +339,6 @@ std::optional<GapEvidence> shelf_of(const MotorTrace& trace, const signals::Sign
   e.parts.sampling = 0.25 * median(reading.of(&Rise::step));
   e.parts.noise = facts.noise;
   if (!(e.gap > signals::kFewestToldQuanta * facts.quantum)) return {};
-  if (getenv("DBG"))
-    printf("slowed %g width %g unseen %g way %g\n", median(reading.of(&Rise::slowed)), width, unseen, rise);
   keep_reversals(trace, reading, rise, e);
   const bool both = e.parts.directions <= kNormal95 * e.parts.beside_directions();
   e.tested = {{words::both_directions(), both},
@@ -354,15 +352,7 @@ std::optional<GapEvidence> shelf_of(const MotorTrace& trace, const signals::Sign
 
 std::optional<GapEvidence> read_shelf(std::span<const MotorTrace> recordings,
                                       std::span<const signals::SignalFacts> facts) {
-  std::optional<GapEvidence> best;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    auto one = shelf_of(recordings[i], facts[i]);
-    if (!one || kNormal95 * one->parts.together() > kWidest * one->gap) continue;
-    const double std = one->parts.together(), known = best ? best->parts.together() : kInfinity;
-    if (best && std::abs(one->gap - best->gap) > kNormal95 * (std + known)) return {};
-    if (std < known) best = std::move(one);
-  }
-  return best;
+  return narrowest(recordings, facts, shelf_of);
 }
 
 }  // namespace gapscope::internal::sliding_mode
