@@ -93,6 +93,7 @@ Outcome run(std::uint64_t seed, bool with_gap, independent_plant::Waveform wavef
 
 struct Tally {
   int cases = 0, accepted = 0, covered = 0, none = 0;
+  int good = 0, good_covered = 0;
   int wrong_none = 0;  // although the gap is above what would have shown, light loads included
   int loops = 0;       // drives whose u and x1 make a loop
   std::vector<double> errors;
@@ -105,7 +106,10 @@ struct Tally {
     loops += e.lost_motion.read();
     if (e.verdict != GapVerdict::kBacklash) return;
     ++accepted;
-    covered += e.ci95.low <= o.gap && o.gap <= e.ci95.high;
+    const bool holds = e.ci95.low <= o.gap && o.gap <= e.ci95.high;
+    covered += holds;
+    good += e.trust == GapTrust::kGood;
+    good_covered += holds && e.trust == GapTrust::kGood;
     if (o.gap > 0.0) errors.push_back(100.0 * std::abs(e.gap / o.gap - 1.0));
   }
 
@@ -119,6 +123,7 @@ struct Tally {
     if (!errors.empty())
       fmt::print("; error median {:.2f}, 95 % {:.1f}, max {:.1f} %; covered {}", median(errors),
                  quantile(errors, 0.95), quantile(errors, 1.0), share(covered, accepted));
+    if (accepted > 0) fmt::print("; good {}, covered {}", good, share(good_covered, good));
     fmt::print("; none {}, above the visible gap {}; loops {}\n", share(none, cases),
                share(wrong_none, cases), loops);
   }
@@ -141,11 +146,14 @@ std::vector<std::string> classes(const Outcome& o) {
 
 void print_case(const Outcome& o) {
   const GapEstimate& e = o.estimate;
+  std::string failed;
+  for (const ReadingTest& test : e.tested)
+    if (!test.passed) failed += fmt::format(", not {}", test.what.code());
   fmt::print(
       "{} gap {:.3f} mrad ({:.0f} quanta), mass ratio {:.2f}, coasting {:.3f}: {} {:.3f} [{:.3f}, {:.3f}], "
-      "above {:.3f} visible; {}\n",
+      "above {:.3f} visible; {}; trust {}{}\n",
       o.seed, 1e3 * o.gap, o.gap / o.quantum, o.mass_ratio, o.coasting, to_string(e.verdict), 1e3 * e.gap,
-      1e3 * e.ci95.low, 1e3 * e.ci95.high, 1e3 * e.smallest_visible_gap, e.reason.text());
+      1e3 * e.ci95.low, 1e3 * e.ci95.high, 1e3 * e.smallest_visible_gap, e.reason.text(), to_string(e.trust), failed);
 }
 
 int main_study(int argc, char** argv) {
