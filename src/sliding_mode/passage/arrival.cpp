@@ -15,7 +15,7 @@ namespace {
 /// Of the way from the rest to the impact: the last of the arrival, looked at. The shortest that has samples
 /// enough tells whether the load is still there at the rest, the longer ones whether it has left before.
 constexpr double kArrivals[] = {0.015, 0.03, 0.06, 0.12, 0.25};
-/// The shortest of them in which a lone motor shows; any law follows less.
+/// Of that way: the shortest arrival in which a lone motor shows; any law follows less.
 constexpr double kTellsAlone = 0.06;
 /// Of the flight: how long its own friction holds a motor that rests by it. When it parted rests from turns
 /// as well, of four gap sine wide rubs, 5160033, 5160072 and 5110017 (44, 4 and 23 % too small) are refused
@@ -86,6 +86,7 @@ struct Arrivals {
   std::vector<signals::LawStretch> stretches;
   std::vector<FreeStretch> whole;  ///< from there through the rest to the end of the flight; else the flight
   double rows = 0.0, resting = 0.0;
+  double way = 0.0, rise = 0.0;  ///< sums of what they are long, which a turn cuts, and of the way back [rad]
 };
 
 Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> passages, double share,
@@ -101,6 +102,8 @@ Arrivals arrivals(const MotorTrace& trace, std::span<const RestBeforeFlight> pas
         {from, p.rest.first, static_cast<double>(from), trace.x1[from] < p.rest.position ? 1 : -1});
     a.whole.push_back({from, p.core});
     a.rows += static_cast<double>(p.rest.first - from) - 1.0;
+    a.way += std::abs(trace.x1[from] - p.rest.position);
+    a.rise += p.rest.rise;
     a.resting += static_cast<double>(p.begin) - static_cast<double>(p.rest.first);
   }
   return a;
@@ -159,10 +162,10 @@ RestingPlace resting_place(const MotorTrace& trace, const signals::SignalFacts& 
     if (!(a.rows > 0.0)) continue;
     const double left = left_by_one_law(trace, alone, flights, a);
     const bool followed = left * left < kFollows * noise * noise;
-    if (share >= kTellsAlone && (followed || 2 * rubbing >= seen.size()) &&
+    if (a.way >= kTellsAlone * a.rise && (followed || 2 * rubbing >= seen.size()) &&
         can_be_alone(trace, facts, alone, a))
       return RestingPlace::kAlone;
-    const bool departs = !followed && left > kOwnBending * std::max(share * seen.front().rest.rise, least);
+    const bool departs = !followed && left > kOwnBending * a.way / static_cast<double>(a.stretches.size());
     if (!nearest) nearest = departs ? RestingPlace::kAtLoad : RestingPlace::kUntold;
   }
   return nearest.value_or(RestingPlace::kUntold);
