@@ -103,18 +103,6 @@ Remark few_passages(long used, double asked, long seen, double half_periods, con
   if (times > 2.0 || advice.code() == more_periods().code()) return text;
   return text + Remark("few_passages", ", or record {:.1f} times as long", {std::ceil(10.0 * times) / 10.0});
 }
-Remark passages_scatter(double percent) {
-  return {"passages_scatter",
-          "the passages scatter by {:.0f} % of their median; record more periods of one steady motion",
-          {percent}};
-}
-Remark directions_contradict(double rising, double falling) {
-  return {
-      "directions_contradict",
-      "{:.3g} [rad] with rising and {:.3g} [rad] with falling x1 contradict each other; remove the offset "
-      "of the excitation, or let the motion rest at its reversals",
-      {rising, falling}};
-}
 Remark most_of_travel(double gap, double travel) {
   return {"most_of_travel",
           "the estimate of {:.3g} [rad] is most of the travel of {:.3g} [rad]; raise the amplitude",

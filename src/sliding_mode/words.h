@@ -29,8 +29,6 @@ Remark more_periods();
 
 Remark few_passages_each_way(long plus, long minus, const Remark& advice);
 Remark few_passages(long used, double asked, long seen, double half_periods, const Remark& advice);
-Remark passages_scatter(double percent);
-Remark directions_contradict(double rising, double falling);
 Remark most_of_travel(double gap, double travel);
 Remark gap_few_quanta(double gap, double quanta);
 Remark too_slow(double visible);  ///< NaN: no gap would show

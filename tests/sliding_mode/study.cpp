@@ -153,7 +153,8 @@ void print_case(const Outcome& o) {
       "{} gap {:.3f} mrad ({:.0f} quanta), mass ratio {:.2f}, coasting {:.3f}: {} {:.3f} [{:.3f}, {:.3f}], "
       "above {:.3f} visible; {}; trust {}{}\n",
       o.seed, 1e3 * o.gap, o.gap / o.quantum, o.mass_ratio, o.coasting, to_string(e.verdict), 1e3 * e.gap,
-      1e3 * e.ci95.low, 1e3 * e.ci95.high, 1e3 * e.smallest_visible_gap, e.reason.text(), to_string(e.trust), failed);
+      1e3 * e.ci95.low, 1e3 * e.ci95.high, 1e3 * e.smallest_visible_gap, e.reason.text(), to_string(e.trust),
+      failed);
 }
 
 int main_study(int argc, char** argv) {

@@ -28,8 +28,6 @@ std::vector<Remark> all_remarks() {
           more,
           words::few_passages_each_way(1, 2, more),
           words::few_passages(3, 4.0, 5, 6.0, more),
-          words::passages_scatter(30.0),
-          words::directions_contradict(0.01, 0.02),
           words::most_of_travel(0.3, 0.4),
           words::gap_few_quanta(0.01, 7.0),
           words::too_slow(0.1),

@@ -18,7 +18,6 @@ namespace gapscope::internal::sliding_mode {
 
 namespace {
 
-constexpr double kWidestTravel = 0.15;   ///< of the gap: uncertainty of the load's travel
 constexpr double kContradiction = 0.06;  ///< of the gap: between the states just before and just after t1
 constexpr double kContrast = 1.6;        ///< of the impact, over what the motion before it needs
 constexpr double kRebound = 0.25;        ///< of the flight, from the impact before to its begin
@@ -174,11 +173,7 @@ void read_release(Passage& t, const PassageContext& context, const FlightLaw& la
     }
     begin_at_rest(t, context, impact, reversal);
   }
-  if (t.dwell && t.speed * (t.event.t2 - t.event.t1) < t.event.gap_uncorrected)
-    t.refusal =
-        Refusal::kNoRelease;  // from rest, a driven motor meets the far flank faster than it went on average
-  if (!(t.event.gap > 0.0) || release.travel_half_width > kWidestTravel * t.event.gap ||
-      std::abs(release.contradiction) > kContradiction * t.event.gap ||
+  if (!(t.event.gap > 0.0) || std::abs(release.contradiction) > kContradiction * t.event.gap ||
       (!release.passive && release.load_travel > kContradiction * t.event.gap))
     t.refusal = Refusal::kLoadMoving;
   const double along = way_along(t, release, reversal, context.facts.quantum + 2.0 * context.facts.noise);

@@ -56,7 +56,7 @@ GapEstimate conclude(GapEvidence e) {
     estimate.gap_at_most = e.smallest_visible_gap;
     estimate.trust = GapTrust::kLimited;  // a load that is lighter, or held by what pulls, would not show
   }
-  if (!estimate.reason.empty() && !e.denies) estimate.gap_at_most = e.at_most;
+  if (!e.denies) estimate.gap_at_most = e.at_most;
   if (!estimate.reason.empty()) return estimate;
   const double std = e.parts.together(), share = kNormal95 * std / e.gap;
   const Remark uncertain = words::gap_uncertain(e.gap, 100.0 * share, mostly(e, share / kNarrow));
@@ -70,6 +70,7 @@ GapEstimate conclude(GapEvidence e) {
   const bool all = std::ranges::all_of(estimate.tested, &ReadingTest::passed);
   estimate.trust = all && e.quantity == GapQuantity::kGap ? GapTrust::kGood : GapTrust::kLimited;
   estimate.verdict = GapVerdict::kBacklash;
+  estimate.gap_at_most = kNaN;  // the interval says more
   estimate.gap = e.gap;
   estimate.whole = e.whole;
   estimate.std = std;

@@ -17,13 +17,6 @@ constexpr double kStriking = 2.5;  ///< contrast from which on a passage is not 
 constexpr std::size_t kFewest = 2;        ///< passages in each direction
 constexpr std::size_t kFewestOneWay = 5;  ///< where only one direction shows any
 constexpr double kMost = 0.6;             ///< of the half periods, and of what looks like a passage
-constexpr double kScatter = 0.25;         ///< of the gap: between passages, and between directions
-
-constexpr double kFarthest = 2.0;        ///< that a load may travel, in gaps, if the rest is to be a gap
-constexpr double kLeastMoving = 0.1;     ///< … from which on one direction alone is not believed
-constexpr double kFewTravel = 0.3;       ///< … within fewer quanta than kFewestMoving
-constexpr double kFewMoving = 0.2;       ///< passages refused for it, over those that are used
-constexpr double kFewestMoving = 100.0;  ///< quanta in a gap within which the load travels far
 
 /// Of the passages. 0.2 withholds two right readings (871011, 871106 gap sine: 0.54); 1 tells nothing more.
 constexpr double kFewMovingLoads = 0.6;
@@ -77,16 +70,6 @@ double fewest_passages(const Pool& pool, int direction) {
   return std::ceil(kMost * std::max(half_periods, candidates));
 }
 
-/// Farther than one can tell how far the load went. Where its law tells, the doubt of that is in the
-/// interval: 10.3 gaps are read 0.5 % off (4100039 gap sine).
-bool travels_too_far(const Pool& pool, const Middle& m) {
-  const double moved = std::abs(median_of(pool, &Passage::load_travel));
-  const auto by_law = std::ranges::count_if(pool.accepted, &Passage::by_law);
-  if (2 * by_law > std::ssize(pool.accepted)) return false;
-  return moved > kFarthest * m.gap || (m.only != 0 && moved > kLeastMoving * m.gap) ||
-         (moved > kFewTravel * m.gap && m.gap < kFewestMoving * pool.quantum);
-}
-
 /// Why the accepted passages do not make a reading; empty if they do.
 Remark objection(const Pool& pool, const Middle& m) {
   const std::size_t plus = gaps_of(pool.accepted, 1).size(), minus = pool.accepted.size() - plus;
@@ -97,14 +80,7 @@ Remark objection(const Pool& pool, const Middle& m) {
   if (static_cast<double>(m.used) < asked)
     return words::few_passages(std::ssize(pool.accepted), asked, static_cast<long>(pool.seen()),
                                pool.half_periods, advice(pool.commonest()));
-  if (m.scatter > kScatter * m.gap) return words::passages_scatter(100.0 * m.scatter / m.gap);
-  if (m.apart > kScatter * m.gap) return words::directions_contradict(m.up, m.down);
   if (m.gap > kMostOfTravel * pool.travel) return words::most_of_travel(m.gap, pool.travel);
-  for (const Refusal why : {Refusal::kLoadMoving, Refusal::kPushed})
-    if (const auto found = pool.refused.find(why); found != pool.refused.end())
-      if (static_cast<double>(found->second) > kFewMoving * static_cast<double>(pool.accepted.size()))
-        return advice(why);
-  if (travels_too_far(pool, m)) return advice(Refusal::kLoadMoving);
   if (m.gap < signals::kFewestToldQuanta * pool.quantum)
     return words::gap_few_quanta(m.gap, m.gap / pool.quantum);
   return {};
