@@ -5,7 +5,7 @@
 #include <string>
 
 #include "diagnosis/loop_cases.h"
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 #include "independent_plant/severity.h"
 
 namespace gapscope::test {

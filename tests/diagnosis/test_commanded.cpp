@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/among.h"
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 
 namespace gapscope {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "independent_plant/chain_run.h"
+#include "drives/chain_run.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 
 namespace gapscope::independent_plant {
 namespace {

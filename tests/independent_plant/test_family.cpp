@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "independent_plant/family.h"
+#include "drives/family.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drives/reference_motion.h"
 #include "gapscope/base/statistics.h"
-#include "independent_plant/reference_motion.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "base/random.h"
+#include "drives/closed_loop.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording_file.h"
-#include "independent_plant/closed_loop.h"
 #include "independent_plant/random_drive.h"
 
 namespace gapscope {

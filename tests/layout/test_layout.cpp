@@ -90,10 +90,10 @@ std::string module_of(const fs::path& relative) {
   return part->string();
 }
 
-std::vector<Include> includes() {
+std::vector<Include> includes(const std::vector<std::string>& tops = {"include/gapscope", "src"}) {
   std::vector<Include> found;
   const std::regex pattern(R"rx(^\s*#\s*include\s*[<"]([^>"]+)[>"])rx");
-  for (const char* top : {"include/gapscope", "src"})
+  for (const std::string& top : tops)
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       const std::string extension = entry.path().extension();
       if (extension != ".h" && extension != ".cpp" && extension != ".inc") continue;
@@ -221,6 +221,14 @@ TEST(Layout, TheRoomsOfTheDetectorSeeEachOtherThroughTheirDoors) {
     }
   }
   EXPECT_GT(through, 5u);
+}
+
+TEST(Layout, DrivesThatTestsDrawAreMadeOfTheIndependentPlantAlone) {
+  const Names open = {"", "base", "recording", "independent_plant"};
+  std::size_t seen = 0;
+  for (const Include& i : includes({"tests/drives"}))
+    EXPECT_TRUE((++seen, open.contains(own_module(i.header)))) << i.file << " includes " << i.header;
+  EXPECT_GT(seen, 20u);
 }
 
 TEST(Layout, TheIndependentPlantAndTheDiagnosisShareNothingButBaseAndRecording) {

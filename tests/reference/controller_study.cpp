@@ -12,8 +12,8 @@
 #include <string>
 
 #include "base/random.h"
+#include "drives/closed_loop.h"
 #include "gapscope/base/statistics.h"
-#include "independent_plant/closed_loop.h"
 #include "reference/rigs.h"
 
 namespace gapscope {

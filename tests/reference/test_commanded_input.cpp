@@ -2,8 +2,8 @@
 // own code.
 #include <gtest/gtest.h>
 
+#include "drives/closed_loop.h"
 #include "gapscope/recording/controller.h"
-#include "independent_plant/closed_loop.h"
 #include "reference/model_fit.h"
 #include "reference/rigs.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 #include "reference/rigs.h"
 
 namespace gapscope {

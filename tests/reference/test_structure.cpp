@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "drives/family.h"
 #include "gapscope/plant/effect_hooks.h"
-#include "independent_plant/family.h"
 #include "plant/rival_laws.h"
 #include "reference/rigs.h"
 #include "reference/structure.h"

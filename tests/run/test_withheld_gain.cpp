@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/text.h"
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 #include "results/scratch_folder.h"
 #include "run/run_diagnosis.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "independent_plant/family.h"
+#include "drives/family.h"
 
 namespace gapscope::test {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "drives/closed_loop.h"
 #include "gapscope/simulation/closed_loop.h"
-#include "independent_plant/closed_loop.h"
 
 namespace gapscope {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "drives/family.h"
 #include "gapscope/sliding_mode/detector.h"
-#include "independent_plant/family.h"
 #include "independent_plant/simulate.h"
 #include "sliding_mode/verdict/lost_motion.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "drives/family.h"
 #include "gapscope/sliding_mode/detector.h"
-#include "independent_plant/family.h"
 
 namespace gapscope {
 namespace {

@@ -1,8 +1,8 @@
 // The torque behind the reversals of slow position loops: another integrator, other laws.
 #include <gtest/gtest.h>
 
+#include "drives/family.h"
 #include "gapscope/sliding_mode/detector.h"
-#include "independent_plant/family.h"
 #include "signals/strokes.h"
 
 namespace gapscope {

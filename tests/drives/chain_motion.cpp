@@ -1,4 +1,4 @@
-#include "independent_plant/chain_motion.h"
+#include "drives/chain_motion.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -1,4 +1,4 @@
-#include "independent_plant/chain_run.h"
+#include "drives/chain_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "independent_plant/chain_dynamics.h"
+#include "drives/chain_dynamics.h"
 #include "independent_plant/event_stepper.h"
 
 namespace gapscope::independent_plant {

@@ -1,4 +1,4 @@
-#include "independent_plant/family.h"
+#include "drives/family.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "base/require.h"
-#include "independent_plant/family_laws.h"
+#include "drives/family_laws.h"
 
 namespace gapscope::independent_plant {
 namespace {

@@ -1,4 +1,4 @@
-#include "independent_plant/reference_motion.h"
+#include "drives/reference_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "independent_plant/controller.h"
+#include "drives/controller.h"
 
 #include <algorithm>
 #include <cmath>

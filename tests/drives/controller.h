@@ -1,7 +1,7 @@
 #pragma once
 
+#include "drives/reference_motion.h"
 #include "gapscope/base/statistics.h"
-#include "independent_plant/reference_motion.h"
 
 namespace gapscope::independent_plant {
 

@@ -1,4 +1,4 @@
-#include "independent_plant/chain.h"
+#include "drives/chain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "independent_plant/closed_loop.h"
+#include "drives/closed_loop.h"
 
 #include <algorithm>
 #include <cmath>

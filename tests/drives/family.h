@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "independent_plant/chain_run.h"
+#include "drives/chain_run.h"
 
 namespace gapscope::independent_plant {
 

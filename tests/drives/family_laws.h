@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "independent_plant/family.h"
+#include "drives/family.h"
 
 namespace gapscope::independent_plant {
 

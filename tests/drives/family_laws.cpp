@@ -1,4 +1,4 @@
-#include "independent_plant/family_laws.h"
+#include "drives/family_laws.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "independent_plant/chain_dynamics.h"
+#include "drives/chain_dynamics.h"
 
 #include <cmath>
 

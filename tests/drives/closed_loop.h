@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "independent_plant/controller.h"
+#include "drives/controller.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope::independent_plant {

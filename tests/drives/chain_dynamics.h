@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "independent_plant/chain.h"
+#include "drives/chain.h"
 #include "independent_plant/dynamics.h"
 
 namespace gapscope::independent_plant {

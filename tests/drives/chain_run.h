@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
+#include "drives/chain_motion.h"
+#include "drives/controller.h"
 #include "gapscope/recording/recording.h"
-#include "independent_plant/chain_motion.h"
-#include "independent_plant/controller.h"
 #include "independent_plant/simulate.h"
 
 namespace gapscope::independent_plant {
