@@ -1,16 +1,21 @@
 #include "config/model_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gapscope::internal::config {
 namespace {
 
-/// What each number can be at all, in the order of kDriveParameters.
-constexpr std::pair<double, double> kPossible[kDriveParameterCount] = {
-    {1e-12, 1e9}, {1e-12, 1e9}, {0.0, 1e9},   {0.0, 1e6},  {0.0, 1e3},
-    {0.0, 1e9},   {0.0, 1e9},   {1e-9, 1e15}, {0.0, 1e12},
-};
+/// What each number can be at all.
+constexpr auto kPossible = [] {
+  std::array<std::pair<double, double>, kDriveParameterCount> possible;
+  possible.fill({0.0, 1e9});
+  possible[place::kMotorInertia] = possible[place::kTorqueConstant] = {1e-12, 1e9};
+  possible[place::kMassRatio].second = 1e6, possible[place::kGap].second = 1e3;
+  possible[place::kContactStiffness] = {1e-9, 1e15}, possible[place::kContactDamping].second = 1e12;
+  return possible;
+}();
 
 /// `prior: {value, std}`; without a value it is around the start.
 std::pair<std::optional<double>, double> read_prior(const Value& value, const Range& range) {
@@ -97,8 +102,7 @@ void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording,
     if (!coordinates.rotational()) side.fail("stands on a slide, expected the number as it is for the slide");
     if (ratio == 0.0)
       side.fail(
-          "needs the gear, expected recording: gear_ratio: {position: turns of the motor for one of the "
-          "axis}");
+          "needs the gear, expected recording: gear_ratio: {position: turns of the motor for one of the axis}");
     const double factor = std::pow(ratio, power);
     if (p->value) *p->value *= factor;
     if (p->bounds) p->bounds->first *= factor, p->bounds->second *= factor;
@@ -108,7 +112,8 @@ void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording,
 }
 
 Range possible_parameter(int index) {
-  return {kPossible[index].first, kPossible[index].second, kDriveParameters[index].unit};
+  const auto& [low, high] = kPossible[static_cast<std::size_t>(index)];
+  return {low, high, kDriveParameters[index].unit};
 }
 
 WrittenModel read_model(const Value& value) {

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kLeastOf = 1e-6;   ///< of a number that is no less than zero, where nothing bounds it
 constexpr double kMostTimes = 1e3;  ///< over its beginning, at most
-constexpr double kFirstShare =
-    0.2;  ///< of the torque that the drive usually brings, with which friction begins
+/// Of the torque that the drive usually brings, with which friction begins.
+constexpr double kFirstShare = 0.2;
 
 bool has(const ReferenceModel& model, const char* name) {
   return std::any_of(model.effects.begin(), model.effects.end(),
@@ -196,15 +196,18 @@ std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTr
     additions.push_back(
         {"controller.position.saturation",
          {0.3 * output / largest_supply(recordings), 0.7 * output / largest_supply(recordings)},
-         [](Loop& l, double start) { l.controller.saturation = start; }});
+         [](Loop& l, double start) { l.controller.saturation = start; },
+         true});
   if (options.goal_delay_is_sought && !(loop.controller.goal_delay > 0.0))
-    additions.push_back({"controller.goal_delay_s", {0.5 * dt, 3.0 * dt}, [](Loop& l, double start) {
-                           l.controller.goal_delay = start;
-                         }});
+    additions.push_back({"controller.goal_delay_s",
+                         {0.5 * dt, 3.0 * dt},
+                         [](Loop& l, double start) { l.controller.goal_delay = start; },
+                         true});
   if (options.delay_is_sought && !(loop.controller.delay > 0.0))
-    additions.push_back({"controller.position.delay", {0.3 * dt, 2.0 * dt}, [](Loop& l, double start) {
-                           l.controller.delay = start;
-                         }});
+    additions.push_back({"controller.position.delay",
+                         {0.3 * dt, 2.0 * dt},
+                         [](Loop& l, double start) { l.controller.delay = start; },
+                         true});
   if (!has(loop.model, "motor_coulomb_friction") && !has(loop.model, "stribeck_friction") &&
       !has(loop.model, "load_dependent_friction"))
     additions.push_back({"motor_coulomb_friction",
@@ -225,7 +228,8 @@ std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTr
                          [usual = usual_error(recordings)](Loop& l, double start) {
                            l.controller.falls_at = start;
                            more_torque(std::hypot(1.0, usual / start), l);
-                         }});
+                         },
+                         true});
   if (!has(loop.model, "stribeck_friction"))
     additions.push_back({"stribeck_friction", {0.3}, [](Loop& l, double start) {
                            double level = 0.0;
@@ -254,8 +258,6 @@ std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTr
                            {ParameterSetting::sought(start * first->parameters[0].value), at(1), at(2)});
            l.model.effects.push_back(arm);
          }});
-  for (LoopAddition& a : additions)
-    a.of_law = a.key.starts_with("controller.") && a.key != "controller.off_damping";
   return additions;
 }
 

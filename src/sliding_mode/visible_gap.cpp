@@ -49,7 +49,7 @@ double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
   const std::size_t j = std::max(sliding, hiding);
   const double k2 = SuperTwistingGains::from_bound(run.bounds[j]).k2;
   const double slowest =
-      kShare * std::sqrt(2.0 * run.floor[j] * k2 / 0.102);  // v of the least visible impact
+      kShare * std::sqrt(2.0 * run.floor[j] * k2 / kStepPeak);  // v of the least visible impact
   double gap = std::max(slowest * slowest / run.bounds[sliding], facts.least_way());
   while (gap < 2.0 * facts.amplitude && speed_away_from_reversals(trace, facts, gap) < slowest) gap *= 1.1;
   return gap < 2.0 * facts.amplitude ? gap : kInfinity;
@@ -58,7 +58,7 @@ double smallest_visible_gap(const MotorTrace& trace, const signals::SignalFacts&
 double encoder_visible_gap(const signals::SignalFacts& facts) {
   const double floor = std::max(1.5 * facts.noise, facts.quantum);
   const double k2_over_bound = SuperTwistingGains::from_bound(1.0).k2;
-  return std::max(kShare * kShare * 2.0 * floor * k2_over_bound / 0.102, facts.least_way());
+  return std::max(kShare * kShare * 2.0 * floor * k2_over_bound / kStepPeak, facts.least_way());
 }
 
 double one_body_visible_gap(const MotorTrace& trace, const signals::SignalFacts& facts) {

@@ -11,7 +11,7 @@ namespace gapscope::internal::sliding_mode {
 constexpr double kSmallestMassRatio = 0.3;
 
 /// The smallest gap whose impacts would have shown in this motion [rad]; infinite if none would.
-/// An impact shows when its Δv leaves a peak 0.102 Δv²/k₂ of twice the floor at a bound above which the
+/// An impact shows when its Δv leaves a peak kStepPeak Δv²/k₂ of twice the floor at a bound above which the
 /// motion itself shows nothing (`hiding`, an index: detents and stick-slip hide weaker impacts). Two
 /// estimates of the speed v at which a gap g would have been closed are taken, the slower one counts: v² =
 /// L_acc g, and the speed that the motor really has at the distance g from its reversals. Of v, an impact on

@@ -85,7 +85,7 @@ std::string share_text(const AddedEffect& a, const NamedValue& n, const std::vec
     if (n.key != p.key || *p.of == '\0') continue;
     name = p.low < 0.0 && n.value > 0.0 ? "+" : "";
     unit += std::string(" ") + p.of;
-    if (std::string_view(p.of).find("friction") != std::string_view::npos) factor *= part_of_level(a, all);
+    if (p.scale == Scale::kLevel) factor *= part_of_level(a, all);
   }
   return name +
          SharedUnit(1.0, unit).with_interval(factor * n.value, {factor * n.ci95.low, factor * n.ci95.high});

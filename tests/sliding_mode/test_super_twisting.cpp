@@ -204,7 +204,7 @@ TEST(SuperTwisting, AVelocityStepLeavesThePeakThatEqSevenAndEightPredict) {
     e += h * (w - 2.028 * std::sqrt(e));
     peak = std::max(peak, e);
   }
-  EXPECT_NEAR(peak, 0.102, 0.001);
+  EXPECT_NEAR(peak, kStepPeak, 0.001);
   const double L = 5.0, step = 0.5, k2 = 1.1 * L;
   for (const Discretisation d : kAll) {
     SuperTwistingDifferentiator differentiator(L, d);

@@ -10,8 +10,8 @@ enum class Discretisation {
   kMatched,       ///< the eigenvalues of the pseudo-linear error dynamics mapped by z = exp(s dt)
 };
 
-const char* to_string(
-    Discretisation discretisation);  ///< "forward_euler", "semi_implicit", "implicit", "matched"
+/// "forward_euler", "semi_implicit", "implicit", "matched"
+const char* to_string(Discretisation discretisation);
 
 /// Gains of the super-twisting algorithm for a bound L on |ÿ|.
 struct SuperTwistingGains {
@@ -20,11 +20,15 @@ struct SuperTwistingGains {
   static SuperTwistingGains from_bound(double L);  ///< k₂ = 1.1 L, k₁ = 2.028 √k₂ (Section II-B)
 };
 
+/// Peak of e after a velocity step Δv, in Δv²/k₂ [-]: a number of (6) at the k₁/√k₂ above, which
+/// tests/sliding_mode/test_super_twisting.cpp integrates.
+inline constexpr double kStepPeak = 0.102;
+
 /// Super-twisting differentiator of a sampled position y (source paper, eqs. (5)–(6), e = y − x̂₁ in both):
 ///   dx̂₁/dt = ŵ₁ + k₁ √|e| sign(e),      dŵ₁/dt = k₂ sign(e)
 /// Exact in finite time while |ÿ| ≤ L. Sampled every dt by forward Euler, e chatters at O(L dt²) and ŵ₁ at
 /// O(L dt); under noise |n| ≤ ε the error of ŵ₁ is O(√(L ε)). At an impact |ÿ| > L and e leaves zero: a
-/// velocity step Δv leaves a peak of 0.102 Δv²/k₂. That is the signal the detector reads.
+/// velocity step Δv leaves a peak of kStepPeak Δv²/k₂. That is the signal the detector reads.
 ///
 /// The other steps, with b = y − x̂₁ − dt ŵ₁ the error of the prediction and e₋ the error before it:
 ///   semi-implicit  e + (dt k₁ √|e₋| + dt² k₂) σ = b,              σ ∈ sign(e), the sign set-valued at zero;

@@ -169,7 +169,7 @@ void join(BankEvent& event, const Excursion& x, double k2) {
   event.last = x.bound;
   ++event.seen;
   if (event.seen <= 4 && x.peak > event.start) event.latency = std::max(event.latency, x.peak - event.start);
-  if (event.steps.size() < 3) event.steps.push_back(std::sqrt(k2 * x.height / 0.102));
+  if (event.steps.size() < 3) event.steps.push_back(std::sqrt(k2 * x.height / kStepPeak));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ std::vector<Excursion> find_excursions(const BankErrors& run, std::size_t bound)
 
 /// Up to which bound something would show that peaks at `height` [rad] at this bound, the highest that shows
 /// it [rad/s²]. That is the bound itself, but the highest of the bank is where the bank ends: there a
-/// velocity step, whose peak is 0.102 Δv²/k₂, would show up to as many times that bound as its peak has
+/// velocity step, whose peak is kStepPeak Δv²/k₂, would show up to as many times that bound as its peak has
 /// double floors.
 double abruptness(const BankRun& run, std::size_t bound, double height);
 
@@ -57,7 +57,7 @@ struct BankEvent {
   std::size_t top = 0;    ///< highest bound (index) that shows it
   std::size_t last = 0;   ///< lowest bound (index) that shows it
   std::size_t seen = 0;   ///< number of bounds that show it
-  double step = 0.0;      ///< velocity step Δv = √(k₂ |e_peak|/0.102), median of the top three [rad/s]
+  double step = 0.0;  ///< velocity step Δv = √(k₂ |e_peak|/kStepPeak), median of the top three [rad/s]
   std::vector<double> steps;  ///< of the top three
   double abruptness = 0.0;    ///< abruptness() of its highest excursion [rad/s²]
   std::size_t latency = 0;    ///< longest from start to peak among the top four [samples]
