@@ -22,9 +22,9 @@ constexpr std::size_t kShortestSalt = 16;
 
 /// A case's name is also that of its files.
 bool is_plain(const std::string& name) {
-  return !name.empty() && name.find_first_not_of(
-                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                              "0123456789_-") == std::string::npos;
+  return !name.empty() &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+             std::string::npos;
 }
 
 /// Names and words of a label are shown in tables, joined by '+'.

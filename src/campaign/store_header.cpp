@@ -172,8 +172,7 @@ void create_tables(Database& database, const CampaignHeader& h) {
   database.execute("BEGIN IMMEDIATE");
   database.execute("CREATE TABLE campaign (key TEXT PRIMARY KEY, value TEXT)");
   database.execute(
-      "CREATE TABLE axes (path TEXT, kind TEXT, logarithmic INTEGER, low REAL, high REAL, count INTEGER, "
-      "listed TEXT)");
+      "CREATE TABLE axes (path TEXT, kind TEXT, logarithmic INTEGER, low REAL, high REAL, count INTEGER, listed TEXT)");
   std::string times;
   for (const std::string& name : timing_columns()) times += ", " + name + " REAL";
   database.execute("CREATE TABLE timing (run INTEGER PRIMARY KEY" + times + ")");

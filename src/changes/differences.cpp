@@ -34,8 +34,7 @@ void compare_given(std::span<const DriveReport> all, const DriveReport& r, Lines
       if (first == nullptr) continue;
       if (differ(p.value, first->value, kSameNumber))
         lines.push_back(fmt::format(
-            "{}: {} was given as {:.6g} {}, in {} as {:.6g}: another drive or another configuration, and "
-            "what is "
+            "{}: {} was given as {:.6g} {}, in {} as {:.6g}: another drive or another configuration, and what is "
             "estimated beside it cannot be compared",
             r.folder, p.key, p.value, r.coordinates.shown_unit(p.unit), before.folder, first->value));
       break;

@@ -63,10 +63,8 @@ void add_make(CommandLine& blind) {
       "  plant        independent (default), or mujoco: MuJoCo's engine moves the drives, where it was there "
       "(libmujoco-dev)\n"
       "               when gapscope was built; it has seven of the catalogue's effects, and none outside\n\n"
-      "Writes per case <case>_train.csv, <case>_held_out.csv (t [s], u, x1 [rad]) and <case>.yaml, a data "
-      "sheet off by\n"
-      "up to 20 %, and manifest.json: SHA-256 of every file and, salted, of every label. All follows from "
-      "the seeds:\n"
+      "Writes per case <case>_train.csv, <case>_held_out.csv (t [s], u, x1 [rad]) and <case>.yaml, a data sheet off by\n"
+      "up to 20 %, and manifest.json: SHA-256 of every file and, salted, of every label. All follows from the seeds:\n"
       "keep them from everybody from whom the labels are kept.\n\n"
       "Example: gapscope blind make my_check.yaml -o cases --labels labels.json");
   command.action([a] { make(*a); });
@@ -85,14 +83,10 @@ void add_implant(CommandLine& blind) {
   command.add_option("CONFIG", a->config, "of the drive (YAML), as for `gapscope diagnose`").required();
   add_handing_out_options(command, a);
   command.footer(
-      "A recorded drive obeyed m a = Km u + rest. Under u' = u - torque/Km the same motion is that of a "
-      "drive\n"
-      "which has the torque, too, with all its real noise and whatever else it has. Effects of the command "
-      "are\n"
-      "put into u by the inverse of their law, those of the encoder into x1; what acts behind a contact "
-      "cannot\n"
-      "be implanted exactly and is refused. The recordings are diagnosed as they are first: effects that "
-      "the\n"
+      "A recorded drive obeyed m a = Km u + rest. Under u' = u - torque/Km the same motion is that of a drive\n"
+      "which has the torque, too, with all its real noise and whatever else it has. Effects of the command are\n"
+      "put into u by the inverse of their law, those of the encoder into x1; what acts behind a contact cannot\n"
+      "be implanted exactly and is refused. The recordings are diagnosed as they are first: effects that the\n"
       "drive has anyway are not implanted. Begin with the model that a diagnosis has fitted.\n\n"
       "Keys of implant: (all have defaults)\n"
       "  first_seed  of the cases (default: 1)\n"
@@ -101,8 +95,7 @@ void add_implant(CommandLine& blind) {
       "  none        cases without an implant (1)\n"
       "  sizes       rms of the effect's torque over that of the input's ([0.05, 0.1, 0.2])\n"
       "  effects     of `gapscope effects` (default: all that can be implanted)\n\n"
-      "Writes per case its recordings (CSV: t [s], u, x1 [rad]), <case>.yaml and manifest.json. Labels "
-      "follow\n"
+      "Writes per case its recordings (CSV: t [s], u, x1 [rad]), <case>.yaml and manifest.json. Labels follow\n"
       "from the seeds and the recordings: keep both from everybody from whom the labels are kept.\n\n"
       "Example: gapscope blind implant axis.yaml -o cases --labels labels.json");
   command.action([a] { put_in(*a); });
@@ -118,8 +111,7 @@ void add_seal(CommandLine& blind) {
       "LABELS is {\"schema\": \"gapscope.blind_labels/1\", \"name\": ..., \"cases\": [...]}, of each case\n"
       "  name             \"axis_3\": letters, digits, _ and -\n"
       "  part             \"report\", or \"calibration\" for cases that the probabilities are calibrated on\n"
-      "  effects          [] for none, one or two of `gapscope effects`, or any other word: outside the "
-      "catalogue\n"
+      "  effects          [] for none, one or two of `gapscope effects`, or any other word: outside the catalogue\n"
       "  rig              of which drive it is; counts are given for each\n"
       "  severity         0 weak to 1 strong, or null\n"
       "  cycles_per_turn  of one effect that repeats with the motor angle, or null\n"
@@ -147,8 +139,7 @@ void add_answer(CommandLine& blind) {
   command.add_option("-o,--output", a->answers, "file of the answers (JSON)").required().value("FILE");
   add_work_options(command, a->threads, a->quiet);
   command.footer(
-      "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes "
-      "on.\n"
+      "Sees the sheets and recordings of CASES and nothing else. Stopped or killed, the same command goes on.\n"
       "The seal depends on every recording and every answer: pass it on before the labels are opened.\n\n"
       "Example: gapscope blind answer cases -o answers.json");
   command.action([a] { answer(*a); });

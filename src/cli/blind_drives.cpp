@@ -60,14 +60,10 @@ void add_blind_drives(CommandLine& blind) {
   command.add_option("-o", arguments->folder, "folder to write into").required().value("DIR");
   command.add_flag("--quiet", arguments->quiet, "no progress");
   command.footer(
-      "Writes per drive a recording (CSV: t [s], u, x1 [rad]) and a configuration whose model is a data "
-      "sheet off\n"
-      "by up to 20 %, and truth.csv with what the sheets do not say. Gap log-uniform 5 to 50 mrad, mass "
-      "ratio\n"
-      "log-uniform 0.1 to 10, contact stiffness log-uniform 50 to 5000 N m/rad, load Coulomb friction 2 to "
-      "60 % of\n"
-      "the torque, dampers log-uniform x0.2 to x2 of the paper's rig, sine of 0.5 to 3 Hz with a travel of "
-      "at least\n"
+      "Writes per drive a recording (CSV: t [s], u, x1 [rad]) and a configuration whose model is a data sheet off\n"
+      "by up to 20 %, and truth.csv with what the sheets do not say. Gap log-uniform 5 to 50 mrad, mass ratio\n"
+      "log-uniform 0.1 to 10, contact stiffness log-uniform 50 to 5000 N m/rad, load Coulomb friction 2 to 60 % of\n"
+      "the torque, dampers log-uniform x0.2 to x2 of the paper's rig, sine of 0.5 to 3 Hz with a travel of at least\n"
       "1.5 gaps, 1 to 10 kHz, 20/16/14/12 bit in equal shares, half with noise of 0.3 to 1.5 quanta.\n\n"
       "Example: gapscope blind drives --seeds 1..600 -o drives");
   command.action([arguments] { make_drives(*arguments); });

@@ -148,8 +148,7 @@ void add_export(CommandLine& campaign) {
   command.add_flag("--times", *times,
                    "with the wall times of each run, which differ from machine to machine");
   command.footer(
-      "One row per run, in the order of the runs, whatever order they finished in; no wall times unless "
-      "asked for.\n"
+      "One row per run, in the order of the runs, whatever order they finished in; no wall times unless asked for.\n"
       "Of each estimator (literal, model_free, reference): whether it answers, gap, interval [rad], "
       "quantity, method,\n"
       "trust, what it was told of the drive, and its passes over the recording.\n\n"
@@ -181,8 +180,7 @@ void add_merge(CommandLine& campaign) {
   command.add_option("DIR", a->folders, "folders of the shards").required();
   command.add_option("-o,--output", a->target, "folder of the whole campaign").required().value("DIR");
   command.footer(
-      "Shards of another campaign or version are refused. Where runs are missing, `gapscope campaign CONFIG "
-      "-o DIR`\n"
+      "Shards of another campaign or version are refused. Where runs are missing, `gapscope campaign CONFIG -o DIR`\n"
       "does them.\n\n"
       "Example: gapscope campaign merge shard_1 shard_2 shard_3 -o reports/sampling_resolution");
   command.action([a, require_new_store] {
@@ -217,14 +215,12 @@ void add_campaign(CommandLine& app) {
       "  name          of the report folder (default: of the file)\n"
       "  base          a configuration, or the file of one\n"
       "  axes          {path: values}, e.g. simulation.rate: [1000, 5000]; values are a list,\n"
-      "                {range: [low, high], count: n}, {log_range: [low, high], count: n} or {repeat: n, "
-      "seed: first}\n"
+      "                {range: [low, high], count: n}, {log_range: [low, high], count: n} or {repeat: n, seed: first}\n"
       "  drawn         {path: {uniform: [low, high]}} or log_uniform: a number of its own for each run\n"
       "  sampling      full_factorial (default) or {latin_hypercube: {samples: n, seed: s}}\n"
       "  estimators    [literal, model_free, reference] (default: all; literal, S1 to S6 of the paper as\n"
       "                printed, where the base or an axis has its bound, detector: {literal: L})\n\n"
-      "Writes DIR/results.sqlite, a row per run as it finishes, and at the end campaign.json, report.md and "
-      "figures.\n"
+      "Writes DIR/results.sqlite, a row per run as it finishes, and at the end campaign.json, report.md and figures.\n"
       "Stopped or killed, the same command goes on.\n\n"
       "Example: gapscope campaign configs/04_sampling_resolution_campaign.yaml -o "
       "reports/sampling_resolution");

@@ -71,10 +71,8 @@ void add_compare(CommandLine& app) {
       "the reports are of several axes or units: how far they lie apart, beside how far a fit does");
   command.footer(
       "Reads DIR/result.json, DIR/diagnosis.json and what belongs to them, and sets every quantity against\n"
-      "the first report: the gap of the answer and of each source, the lost motion, friction and stiffness "
-      "of\n"
-      "the loop by torque level, every number that a fit has estimated, the missing torque and the amount "
-      "of\n"
+      "the first report: the gap of the answer and of each source, the lost motion, friction and stiffness of\n"
+      "the loop by torque level, every number that a fit has estimated, the missing torque and the amount of\n"
       "every effect that a diagnosis has added. A bound against a value is a comparison, too.\n"
       "  changed  more than the errors of both, and what other torques alone can make, leave room for\n"
       "  same     within the tolerance: tolerance: {gap: ...} of a report for gap and lost motion, else a\n"
@@ -84,8 +82,7 @@ void add_compare(CommandLine& app) {
       "each interval is as wide as 1 - 0.05/n holds (Bonferroni), so that a word of any row is wrong in at\n"
       "most one comparison of twenty; the printed interval of a row is its own 95 %.\n"
       "Of two fits it says which numbers must differ, with those that look alike; of four reports or more,\n"
-      "in order, the course of each quantity and since when it is not what it was; of units (--spread) "
-      "those\n"
+      "in order, the course of each quantity and since when it is not what it was; of units (--spread) those\n"
       "that are unlike the others.\n"
       "Warned of: other numbers given, another excitation, encoder or method, the same recording twice, a\n"
       "model that leaves more than the encoder explains, a result that was changed since it was written.\n"

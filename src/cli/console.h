@@ -27,8 +27,8 @@ struct ToldConfiguration {
   std::string settings = "";  ///< " --set KEY=VALUE ..."
   std::string model = "";     ///< " --model-from FILE"
   std::string folder = "";    ///< " -o DIR"
-  std::string to_begin =
-      "";  ///< what `gapscope init` is given where the configuration has no model; else empty
+  /// What `gapscope init` is given where the configuration has no model; else empty.
+  std::string to_begin = "";
 };
 
 /// The headline of a run on standard output: the report, both estimates with intervals, and how they compare.

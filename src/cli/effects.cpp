@@ -100,17 +100,14 @@ void add_effects(CommandLine& app) {
       .excludes(as_json)
       .excludes(one);
   command.footer(
-      "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the "
-      "input.\n"
-      "The last three are laws of last resort, any function of speed, input or position: what `diagnose` "
-      "lays\n"
+      "One identifier a line. In a law x1, w1 are angle and speed of the motor, x2, w2 of the load, u is the input.\n"
+      "The last three are laws of last resort, any function of speed, input or position: what `diagnose` lays\n"
       "over what no effect explains.\n"
       "In a configuration: effects: [{cogging_torque: {amplitude_nm: 0.004,\n"
       "periods_per_turn: 24}}], under model: (known effects) or simulation: model: (the true plant).\n"
       "periods_per_turn counts the turns of x1 (x2); it may be written as a length, period_rad [rad, m on a\n"
       "slide]. Unbalance and both eccentricities come once per turn of the load and of the encoder, as\n"
-      "recording: gear_ratio: says; a slide has no turn, and they need period_rad, such as a screw's "
-      "pitch.\n\n"
+      "recording: gear_ratio: says; a slide has no turn, and they need period_rad, such as a screw's pitch.\n\n"
       "Example: gapscope effects cogging_torque");
   command.action([json, laws, name] {
     if (!name->empty()) return print_one(*name);

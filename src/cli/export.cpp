@@ -82,11 +82,9 @@ void add_drive_export(CommandLine& app) {
   command.footer(
       format_help() +
       "Writes the model, certificate.md and certificate.json (rad, s; rad means m on a translational axis).\n"
-      "The certificate says of every number and effect whether the target has it exactly, approximately or "
-      "not\n"
+      "The certificate says of every number and effect whether the target has it exactly, approximately or not\n"
       "and why; how far the target's x1 is from gapscope's simulator under the same input at several steps;\n"
-      "the largest stable step; and what the format's own defaults would do. What a diagnosis in "
-      "SOURCE\n"
+      "the largest stable step; and what the format's own defaults would do. What a diagnosis in SOURCE\n"
       "left unexplained is stated there and in the head of the model.\n"
       "SOURCE with recording: needs every number of its model, and is judged under the recorded input; a\n"
       "fitted.yaml under that of its trace (after diagnose: of what was held out), for the first 10 s.\n"

@@ -35,8 +35,8 @@ void tell_after(suseconds_t wait) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-constexpr double kOneRequest =
-    0.1;  ///< signals within it [s] are one: `timeout` tells the process and its group
+/// Signals within it [s] are one: `timeout` tells the process and its group.
+constexpr double kOneRequest = 0.1;
 
 /// Whether this signal is what the last one was.
 bool is_told_twice() {

@@ -41,8 +41,7 @@ void add_schema(CommandLine& app) {
       "configuration is that of the YAML which the commands read: editors complete and check it by it, with\n"
       "the first line `# yaml-language-server: $schema=FILE`.\n\n"
       "Every stored JSON says in its key schema what it is (gapscope.result/1); NAME is the word between.\n"
-      "JSON Schema, draft 2020-12; each line of a stream is a document of its own. Keys carry their "
-      "units.\n\n"
+      "JSON Schema, draft 2020-12; each line of a stream is a document of its own. Keys carry their units.\n\n"
       "Example: gapscope schema result > result.schema.json");
   command.action([name] { print_schema(*name); });
 }

@@ -48,8 +48,7 @@ std::string excitation_help() {
 
 std::string details() {
   InitialState initial;
-  return "Writes t [s], u [unit of u], x1 [rad], x2 [rad] (where there is a load) and mode: gap, "
-         "engagement+,\n"
+  return "Writes t [s], u [unit of u], x1 [rad], x2 [rad] (where there is a load) and mode: gap, engagement+,\n"
          "engagement-, impact; of a drive of one body one_body.\n"
          "The torque on the motor is torque_constant x u.\n\n"
          "Keys of simulation:\n"

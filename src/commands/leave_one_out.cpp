@@ -155,10 +155,8 @@ std::string recommended(const std::vector<LeftOutAnswer>& answers) {
   const LeftOutAnswer& worst = *std::max_element(answers.begin(), answers.end(), worse);
   const bool whole = std::isfinite(worst.mae);
   return fmt::format(
-      "fitted.yaml, fitted to all recordings: none of them is better known by leaving others out. What it is "
-      "off "
-      "on a recording that it has not seen is at most the worst line: {:.4g} mrad ({}), where {} was left "
-      "out.",
+      "fitted.yaml, fitted to all recordings: none of them is better known by leaving others out. What it is off "
+      "on a recording that it has not seen is at most the worst line: {:.4g} mrad ({}), where {} was left out.",
       1e3 * (whole ? worst.mae : worst.after),
       whole ? "mean over whole recordings" : "free run of half a second", worst.left_out.told);
 }

@@ -169,9 +169,9 @@ Json anchor_schema() {
   MapSchema anchor;
   anchor.add("mass", number_schema(kMass, "known, on the axis of the positions"));
   anchor.add("arm", number_schema(kArm, "distance of the mass from that axis"));
-  anchor.add("hangs_at", setting_schema(kHangs,
-                                        "position at which the arm hangs down; default: estimated, "
-                                        "within 0.5 of 0"));
+  anchor.add(
+      "hangs_at",
+      setting_schema(kHangs, "position at which the arm hangs down; default: estimated, within 0.5 of 0"));
   anchor.add("gravity", number_schema(kGravity, "default: 9.80665"));
   anchor.add("inertia", number_schema(kInertia, "of the motor's side, in place of motor_inertia"));
   anchor.add("friction", number_schema(kFriction, "dry friction of the motor's side"));

@@ -84,8 +84,7 @@ WrittenAxis read_axis(const std::string& path, const Value& value, bool continuo
     return a;
   }
   const std::string expected =
-      "a list, {range: [low, high], count: n}, {log_range: [low, high], count: n} or {repeat: n, seed: "
-      "first}";
+      "a list, {range: [low, high], count: n}, {log_range: [low, high], count: n} or {repeat: n, seed: first}";
   if (!value.is_map()) value.fail_expecting(expected);
   const Section section(value, {"range", "log_range", "repeat", "count", "seed"});
   const auto range = section.find("range"), log_range = section.find("log_range");

@@ -139,8 +139,7 @@ CampaignConfig read_campaign(const std::string& text, const std::string& file) {
     if (const auto estimators = root.find("estimators");
         estimators && c.literal && c.model_free && first.detector.method == DetectorMethod::kLiteral)
       estimators->fail(
-          "has literal twice: detector: {method: literal} makes model_free S1 to S6 as well, expected "
-          "detector: "
+          "has literal twice: detector: {method: literal} makes model_free S1 to S6 as well, expected detector: "
           "{literal: L} without a method");
     c.literal = c.literal && has_bound;
   } catch (const ConfigError& error) {

@@ -39,8 +39,8 @@ struct Configuration {
   std::optional<AnchorConfig> anchor = {};         ///< `anchor:` – what fixes the scale of the torques
   DetectorConfig detector;
   FitOptions fit;  ///< `fit:` – how the reference is found; optional, every key of it too
-  ExperimentLimits
-      next_experiment;  ///< `next_experiment:` – what the diagnosis may propose; optional like it
+  /// `next_experiment:` – what the diagnosis may propose; optional like it.
+  ExperimentLimits next_experiment;
   int next_experiment_line = 0;
   DiagnosisKnowledge diagnosis;               ///< `diagnosis:` – what it is told beforehand; optional
   std::vector<std::string> excluded;          ///< `diagnosis: exclude:` – effects that are no candidates

@@ -181,8 +181,7 @@ void require_estimable(const Value& controller, const RecordingConfig& recording
         "much of the input they leave, and at which scale");
   if (recording.reading.resample_rate && !recording.resample_for_detector)
     controller.fail(
-        "has a number to be estimated and the recording is resampled, expected resample: {for: detector} or "
-        "none");
+        "has a number to be estimated and the recording is resampled, expected resample: {for: detector} or none");
 }
 
 void write_fixed(YamlWriter& out, const LawKeys& keys, const DriveController& controller) {

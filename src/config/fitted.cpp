@@ -195,11 +195,11 @@ std::string fit_yaml(const Configuration& given, const FitSummary& fit, const st
   c.simulation->initial = {start.x1, start.w1, start.x2, start.w2};
   c.simulation->noise = 0.0;
   set_plant(c);
-  return yaml_of(c, c.controller
-                        ? "The fitted model under its controller and the goal of its recording; `gapscope "
-                          "simulate` runs it as it is."
-                        : "The fitted model under the input of its recording; `gapscope simulate` runs it as "
-                          "it is.");
+  return yaml_of(
+      c, c.controller
+             ? "The fitted model under its controller and the goal of its recording; `gapscope "
+               "simulate` runs it as it is."
+             : "The fitted model under the input of its recording; `gapscope simulate` runs it as it is.");
 }
 
 }  // namespace gapscope

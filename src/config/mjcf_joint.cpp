@@ -133,8 +133,7 @@ void read_neighbour(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
     if (const double width = m.range_width(*j); j != &joint && width > 0.0 && width < kWidestGap) {
       n.gap = width;
       n.notes.push_back(
-          "the gap is the range of a second joint of the same body: there the load's friction and damping "
-          "have no "
+          "the gap is the range of a second joint of the same body: there the load's friction and damping have no "
           "place of their own, so they are left to the fit");
       return;
     }

@@ -22,8 +22,8 @@ Json folder_name_schema(const std::string& doc);  ///< what is_plain_name() take
 Json truth_schema(const std::string& doc);
 Json words_schema(const std::vector<std::string>& words, const std::string& doc);
 Json list_schema(const Json& item, const std::string& doc);
-Json rising_pair_schema(const Range& range,
-                        const std::string& doc);  ///< [low, high], which a schema cannot compare
+/// [low, high], which a schema cannot compare.
+Json rising_pair_schema(const Range& range, const std::string& doc);
 Json one_of(std::vector<Json> schemas, const std::string& doc);
 
 /// A map with these keys and no others.

@@ -55,8 +55,7 @@ Json registers_schema() {
   for (const char* key : {"input", "position", "load_position"})
     registers.add(key, any_of({{{"type", "integer"}, {"minimum", 0}, {"maximum", 52}}, one}));
   return registers.schema(
-      "how signed numbers were held that were read without their sign: bits of two's complement, a sign bit "
-      "or an "
+      "how signed numbers were held that were read without their sign: bits of two's complement, a sign bit or an "
       "offset");
 }
 

@@ -111,10 +111,10 @@ class Overlay {
 
   std::size_t place_in(const YAML::Node& list, const std::string& digits, const std::string& path) const {
     if (digits.size() < 6 && std::stoul(digits) < list.size()) return std::stoul(digits);
-    throw ConfigError(setting_place(setting_),
-                      fmt::format("{} has {} items, expected a place from 0 on and below that, or the key of "
-                                  "an item",
-                                  path, list.size()));
+    throw ConfigError(
+        setting_place(setting_),
+        fmt::format("{} has {} items, expected a place from 0 on and below that, or the key of an item", path,
+                    list.size()));
   }
 
   /// The item that is a map with the key; past the last one if there is none.

@@ -149,11 +149,8 @@ void suggest_anchor(YamlWriter& out, bool gain_sought, Coordinates coordinates) 
         "motor_inertia, and say what you know (or gapscope init --mass 0.49 --arm 0.1, or --inertia):");
   else
     out.comment(
-        "No data sheet gives torque_constant? Delete its line and that of motor_inertia, and say what you "
-        "know "
-        "(the "
-        "fit then sets aside what it cannot start from; or gapscope init --mass 0.49 --arm 0.1, or "
-        "--inertia):");
+        "No data sheet gives torque_constant? Delete its line and that of motor_inertia, and say what you know (the "
+        "fit then sets aside what it cannot start from; or gapscope init --mass 0.49 --arm 0.1, or --inertia):");
   out.comment("anchor: {inertia: 8.8e-4}  # " + coordinates.unit("kg m^2") + ", of the motor's side" +
               (coordinates.rotational() ? "; or {mass: 0.49, arm: 0.1}  # kg, m" : ""));
 }
@@ -224,8 +221,7 @@ void doubt_the_control(Begin& begin, Coordinates coordinates) {
       fmt::format("the input reaches {:.3g}, {:.2g} times the range of the actuator's control ({:.3g}): is "
                   "it the {} at the "
                   "joint? Then take torque_constant: 1 and no torque_saturation; with {:.3g} every number "
-                  "here comes out so many "
-                  "times too large",
+                  "here comes out so many times too large",
                   begin.largest_input, begin.largest_input / n.input_limit, n.input_limit,
                   coordinates.torque_word(), n.torque_constant));
 }

@@ -13,8 +13,8 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kNothing =
-    std::numeric_limits<double>::epsilon();  ///< of a start: a change that stays is none
+/// Of a start: a change that stays is none.
+constexpr double kNothing = std::numeric_limits<double>::epsilon();
 
 /// What a weak start of a candidate changes of the errors, beyond the model's numbers; less does in
 /// proportion.

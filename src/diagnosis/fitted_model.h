@@ -24,8 +24,8 @@ struct FittedModel {
   double mean_cost = kInfinity;       ///< what it leaves, see reference::RefinedFit [floor²]
   std::vector<std::string> at_bound;  ///< keys of the last effect's parameters that ended at a bound
   std::array<BoundReached, kDriveParameterCount> drive_at_bound = {};  ///< of the drive's parameters
-  bool balanced =
-      false;  ///< its numbers are those of the torque balance, which no fit to the motion has moved
+  /// Its numbers are those of the torque balance, which no fit to the motion has moved.
+  bool balanced = false;
   std::optional<reference::StandardErrors> errors = {};  ///< once it is settled, see settle.h
   std::vector<Disagreement> disagreements = {};  ///< of one that was fitted for its runs, see long_runs.h
   bool searched = false;  ///< from afar with its effects as they are: that has led nowhere else

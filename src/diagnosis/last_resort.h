@@ -32,8 +32,8 @@ std::optional<LawSearch> search_last_resort(const Study& study, const ScoredMode
 
 /// What a law has ahead of a model.
 struct Lead {
-  double score =
-      -kInfinity;  ///< S, all that was estimated of effects and laws counted, by what judges the law
+  /// S, all that was estimated of effects and laws counted, by what judges the law.
+  double score = -kInfinity;
   bool was_asked_for = false;  ///< it leaves less of what was fitted, too: ahead on the rest alone is luck
 
   bool is_clear() const { return was_asked_for && score > kRule.tells_apart; }

@@ -49,13 +49,13 @@ inline constexpr LongRuns kLongRuns;
 struct SearchEffort {
   int race_steps = 2;    ///< by which a start is adjusted before it is compared with others
   double weaker = 0.15;  ///< of a start: a weaker one; there a sine acts in proportion, too
-  reference::RefineEffort quick = {3, 8,
-                                   1e-3};  ///< to tell whether a start, or a law, is worth a whole refinement
+  /// To tell whether a start, or a law, is worth a whole refinement.
+  reference::RefineEffort quick = {3, 8, 1e-3};
   /// Iterations of each local search by which the numbers of an answer settle: with 60, as fit() has, no gap
   /// of eight drives (`study_rows`, seeds 5111 to 5140) moves by more than about a tenth of its interval.
   int settling = 20;
-  double past_travel =
-      2.0;  ///< period with which a torque over the whole travel begins [travel]: it need not close
+  /// Period with which a torque over the whole travel begins [travel]: it need not close.
+  double past_travel = 2.0;
   /// Of the race that are refined, of these that are refined once more, and rounds of refining a law of last
   /// resort.
   std::size_t leaders = 5;

@@ -11,9 +11,9 @@ namespace gapscope::internal::diagnosis {
 /// How far a pattern orders a correcting torque.
 struct PatternStrength {
   ResidualPattern pattern = ResidualPattern::kMode;
-  double strength =
-      0.0;  ///< 0: none; 1: all of the correcting torque. Share of its square that means over the
-            ///< quantity explain; for time and mode, what is elsewhere than it would be at random
+  /// 0: none; 1: all of the correcting torque. Share of its square that means over the quantity explain; for
+  /// time and mode, what is elsewhere than it would be at random.
+  double strength = 0.0;
 };
 
 /// Cycles per turn of an effect along the motor angle: its own parameter, else one. NaN for other effects.

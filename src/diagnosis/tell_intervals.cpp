@@ -190,8 +190,7 @@ void warn_of_disagreements(const Study& study, const FittedModel& fitted, Diagno
   if (numbers.empty()) return;
   d.warnings.push_back(
       fmt::format("the free run and the {} alone disagree on {}: the model has the former values, and their "
-                  "intervals hold "
-                  "both.",
+                  "intervals hold both.",
                   study.options.coordinates.torque_word(), fmt::join(numbers, ", ")));
 }
 

@@ -166,8 +166,7 @@ std::string header_text(const ExportSource& s, const gsd_numbers& n) {
       "\n"
       "     {0}_state drive;\n"
       "     {0}_start(&drive);                      // as the recording began\n"
-      "     for (;;) x1 = {0}_step(&drive, u);      // x1 [{1}] at the end of a step of {2} s with the input "
-      "u\n"
+      "     for (;;) x1 = {0}_step(&drive, u);      // x1 [{1}] at the end of a step of {2} s with the input u\n"
       "\n"
       "   u [unit of u] is held over the step; torque {3} {4} per unit on the motor. Link with -lm. */\n"
       "#ifndef {5}\n#define {5}\n\n#include <math.h>\n\n#define GSD_HELD {6}\n\n",

@@ -28,11 +28,9 @@ std::string urdf_text(const ExportSource& s, const FlatJoint& j) {
       "what is lost. -->\n<robot name=\"{0}\">\n  <link name=\"{0}_base\"/>\n  <link name=\"{0}_output\">\n  "
       "  <inertial>\n"
       "      <origin xyz=\"{1:.12g} 0 {2:.12g}\"/>\n      <mass value=\"{3:.12g}\"/>\n      <inertia "
-      "ixx=\"{4:.12g}\" ixy=\"0\" "
-      "ixz=\"0\" "
+      "ixx=\"{4:.12g}\" ixy=\"0\" ixz=\"0\" "
       "iyy=\"{4:.12g}\" iyz=\"0\" izz=\"{4:.12g}\"/>\n    </inertial>\n  </link>\n  <joint "
-      "name=\"{0}_joint\" "
-      "type=\"{5}\">\n"
+      "name=\"{0}_joint\" type=\"{5}\">\n"
       "    <parent link=\"{0}_base\"/>\n    <child link=\"{0}_output\"/>\n    <axis xyz=\"{6}\"/>\n    "
       "<limit effort=\"{7:.12g}\" velocity=\"1000\"{8}/>\n    <dynamics damping=\"{9:.12g}\" "
       "friction=\"{10:.12g}\"/>\n  </joint>\n</robot>\n",

@@ -11,8 +11,7 @@ namespace gapscope::internal::exports {
 namespace {
 
 constexpr const char* kNotFlat =
-    "one joint with inertia, damping and friction has no place for it; --to mjcf has one for a gap, --to c "
-    "for most";
+    "one joint with inertia, damping and friction has no place for it; --to mjcf has one for a gap, --to c for most";
 
 bool is_free(const ExportSource& s) {
   return s.plant.structure.has_load && s.plant.structure.load == LoadKind::kFree;

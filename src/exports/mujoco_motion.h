@@ -44,8 +44,8 @@ struct MujocoStepping {
 // The parameters of the soft constraints that the exported MJCF gives.
 inline constexpr double kSoftest = 1e-4;    ///< impedance of the contact: the least that MuJoCo takes
 inline constexpr double kHardest = 0.9999;  ///< of dry friction: the most that it takes
-inline constexpr double kShortest =
-    1e-6;  ///< time constant of dry friction [s]; MuJoCo raises it to two steps
+/// Time constant of dry friction [s]; MuJoCo raises it to two steps.
+inline constexpr double kShortest = 1e-6;
 
 /// x1 at every step of the engine, the first one at t = 0, as MuJoCo's own steps make it:
 ///   * acceleration of the smooth torques a⁰ = (τ − d v)/m, then the soft constraints (dry friction of either

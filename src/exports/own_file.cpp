@@ -186,8 +186,7 @@ std::string motor_body(const JointNumbers& own, const MujocoDrive& d) {
   const double inertia = d.inertia[0], friction = d.friction[0];
   return fmt::format(
       "beside the body of {0}: <body name=\"{1}\"{2}><inertial pos=\"0 0 0\" mass=\"{3:.8g}\" "
-      "diaginertia=\"{4:.8g} {4:.8g} {4:.8g}\"/><joint name=\"{1}\" type=\"{5}\" {6} damping=\"{7:.8g}\" "
-      "{8}/></body>",
+      "diaginertia=\"{4:.8g} {4:.8g} {4:.8g}\"/><joint name=\"{1}\" type=\"{5}\" {6} damping=\"{7:.8g}\" {8}/></body>",
       own.joint, motor_of(own), own.body_place, own.slides ? inertia : kNoMass, inertia,
       own.slides ? "slide" : "hinge", own.axis_place, d.damping[0],
       friction > 0.0 ? dry_friction(fmt::format("{:.8g}", friction)) : "frictionloss=\"0\"");

@@ -57,8 +57,8 @@ class Dynamics {
   double half_gap(double t, double x2) const;                     ///< β [rad]
   double overlap(double t, const State& s, int flank) const;      ///< p = ±(x1 − x2) − β [rad]
   double contact_law(double t, const State& s, int flank) const;  ///< k·p ± c·(w1 − w2), may pull [N·m]
-  double contact_torque(double t, const State& s,
-                        const Regime& regime) const;  ///< τc, compliant and bonded only
+  /// τc, compliant and bonded only.
+  double contact_torque(double t, const State& s, const Regime& regime) const;
 
   /// Kinetic energy and that of the contact spring while it is pressed; no resonator [J].
   double stored_energy(double t, const State& s, const Regime& regime) const;

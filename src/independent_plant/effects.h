@@ -71,8 +71,8 @@ struct LoadEffects {
   double unbalance_phase_rad = 0.0;
   double unbalance_periods = 1.0;  ///< N, of a load that turns otherwise than x2 counts
   double constant_torque_nm = 0.0;
-  double inertia_ratio =
-      0.0;  ///< m2·(1 + ratio·r(t)), r a ramp from 0 to 1: mass arrives with the speed of the load
+  /// m2·(1 + ratio·r(t)), r a ramp from 0 to 1: mass arrives with the speed of the load.
+  double inertia_ratio = 0.0;
   double inertia_time_s = 0.0;
   double inertia_duration_s = 0.0;   ///< 0: a step
   double resonator_inertia = 0.0;    ///< third inertia on the load by a spring [kg·m²]

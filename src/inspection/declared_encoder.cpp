@@ -36,8 +36,7 @@ void judge_for_encoder(double quantum, bool counts, Inspection& inspection) {
     f.severity = Severity::kNote;
     f.found = fmt::format("x1 steps by {} where encoder: says {}", length(seen), length(quantum));
     f.advice =
-        "give the step that the recording has, encoder: {bits: ...} or {quantum: ...}, or find out who "
-        "rounds, "
+        "give the step that the recording has, encoder: {bits: ...} or {quantum: ...}, or find out who rounds, "
         "filters or scales x1 on its way";
   }
 }

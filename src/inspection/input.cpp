@@ -24,8 +24,8 @@ constexpr std::size_t kFewestPlateaus = 3;
 constexpr double kClipped = 0.01;       ///< share of the samples below which plateaus do not matter
 constexpr double kHeldElsewhere = 0.3;  ///< share of equal neighbours off the extremes: held in steps
 constexpr double kStraight = 2e-3;      ///< largest deviation of a flank from its chord, over the swing
-constexpr double kAbrupt =
-    0.2;  ///< slope just before a plateau, over the rms slope: a rounded crest has less
+/// Slope just before a plateau, over the rms slope: a rounded crest has less.
+constexpr double kAbrupt = 0.2;
 constexpr std::size_t kMostForSpectrum = 1u << 16;
 constexpr double kLeastOfCounts = 5.0;  ///< peak of whole numbers that are no rounded torque
 constexpr double kNoNoise = 1e-6;       ///< of the range: what is left of rounding
@@ -177,24 +177,24 @@ Finding check_input(const Material& m, RecordingFacts& facts) {
             fmt::format("recording: registers: {{input: {}}} (--input-register {}), so that {:.0f} is -1",
                         bits, bits, std::ldexp(1.0, bits) - 1.0)};
   if (const int bit = form.sign_bit)
-    return {kInputRule, Severity::kSpoils,
-            found + fmt::format(
-                        ": its column is a register whose bit {} is the sign (small numbers, and the same "
-                        "above {:.0f})",
-                        bit, std::ldexp(1.0, bit)),
+    return {
+        kInputRule, Severity::kSpoils,
+        found +
             fmt::format(
-                "recording: registers: {{input: {{sign_bit: {}}}}} (--input-register sign{}), so that {:.0f} "
-                "is -1",
-                bit, bit, std::ldexp(1.0, bit) + 1.0)};
+                ": its column is a register whose bit {} is the sign (small numbers, and the same above {:.0f})",
+                bit, std::ldexp(1.0, bit)),
+        fmt::format(
+            "recording: registers: {{input: {{sign_bit: {}}}}} (--input-register sign{}), so that {:.0f} is -1",
+            bit, bit, std::ldexp(1.0, bit) + 1.0)};
   if (auto impossible = impossible_input(m, found)) return *std::move(impossible);
   if (const OffStretch off = switched_off(m.rows.u, m.rows.x1, m.signal.quantum); off.length() > 0)
-    return {kInputRule, Severity::kNote,
-            found + fmt::format(": zero from {:.2f} to {:.2f} s, while x1 goes on moving", m.rows.t[off.from],
-                                m.rows.t[off.to - 1]),
-            "was the drive switched off there? Its windings are open then and brake no more, which no one "
-            "model says "
-            "with the rest: cut it off (--window, recording: window), or take another recording",
-            true};
+    return {
+        kInputRule, Severity::kNote,
+        found + fmt::format(": zero from {:.2f} to {:.2f} s, while x1 goes on moving", m.rows.t[off.from],
+                            m.rows.t[off.to - 1]),
+        "was the drive switched off there? Its windings are open then and brake no more, which no one model says "
+        "with the rest: cut it off (--window, recording: window), or take another recording",
+        true};
   if (auto magnitude = seeming_input(m, found)) return *std::move(magnitude);
   if (auto loaded = constant_input(m, found)) return *std::move(loaded);
   if (facts.input_peak > kLeastOfCounts && whole_numbers(u))
@@ -229,8 +229,7 @@ Finding check_clipping(const Material& m, RecordingFacts& facts) {
                   figure(std::max(std::abs(extremes(u).low), std::abs(extremes(u).high)), 4), runs,
                   100.0 * share),
       "no harm if that is what reached the motor; what a limit behind it took away, or what recorded u did, "
-      "does not show in u and x1: read u (the current) behind every limit, within the range of what records "
-      "it"};
+      "does not show in u and x1: read u (the current) behind every limit, within the range of what records it"};
 }
 
 Finding check_spectrum(const Material& m, RecordingFacts& facts) {

@@ -88,10 +88,10 @@ Finding mended_jumps(const Material& m) {
     if (r.code() == "position.unwrapped" || r.code() == "rows.jumping")
       mended.push_back(r.text(m.coordinates));
   if (mended.empty()) return {"jumps", Severity::kFine, "x1 has none", ""};
-  return {"jumps", Severity::kNote, fmt::format("{}", fmt::join(mended, "; ")),
-          "where it did turn so far, recording: unwrap: false; a reading that fails so often is worth a look "
-          "at the "
-          "encoder's line"};
+  return {
+      "jumps", Severity::kNote, fmt::format("{}", fmt::join(mended, "; ")),
+      "where it did turn so far, recording: unwrap: false; a reading that fails so often is worth a look at the "
+      "encoder's line"};
 }
 
 }  // namespace
@@ -150,14 +150,14 @@ Finding check_encoder(const Material& m, RecordingFacts& facts) {
     return {"encoder", Severity::kNote,
             fmt::format("x1 steps by {:.4g} {}, finer than any encoder: another unit?", q, m.unit()),
             "declare it, recording: units: {position: ...}"};
-  return {"encoder", Severity::kFine,
-          fmt::format(
-              "x1 steps by {}{}, noise {:.2g} steps; no gap below {:.0f} steps, {}, is found, and few below "
-              "{:.0f}, {}",
-              m.length(q), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
-              noise / q, signals::kFewestToldQuanta, m.length(signals::kFewestToldQuanta * q),
-              signals::kFewestGapQuanta, m.length(signals::kFewestGapQuanta * q)),
-          ""};
+  return {
+      "encoder", Severity::kFine,
+      fmt::format(
+          "x1 steps by {}{}, noise {:.2g} steps; no gap below {:.0f} steps, {}, is found, and few below {:.0f}, {}",
+          m.length(q), m.coordinates.rotational() ? fmt::format(" ({:.0f} per turn)", per_turn) : "",
+          noise / q, signals::kFewestToldQuanta, m.length(signals::kFewestToldQuanta * q),
+          signals::kFewestGapQuanta, m.length(signals::kFewestGapQuanta * q)),
+      ""};
 }
 
 Finding check_jumps(const Material& m, RecordingFacts&) {
@@ -198,11 +198,11 @@ Finding check_hold(const Material& m, RecordingFacts&) {
                  figure(rows.every, 2), ordinal(rows.every), rate);
   if (m.resampled && m.recording.dt * rate > 0.99)
     return {kRule, Severity::kNote, found, "resampled so slowly that each row is a reading"};
-  return {kRule, Severity::kSpoils, found,
-          fmt::format(
-              "record at the rate of the encoder, or take each reading once, recording: resample: {{rate: "
-              "{:.4g}}}",
-              rate)};
+  return {
+      kRule, Severity::kSpoils, found,
+      fmt::format(
+          "record at the rate of the encoder, or take each reading once, recording: resample: {{rate: {:.4g}}}",
+          rate)};
 }
 
 }  // namespace gapscope::internal::inspection

@@ -164,8 +164,7 @@ std::string judges_little(const MotionReach& fitted, const MotionReach& held_out
            "another recording, which goes both ways";
   if (!stands(fitted) && stands(held_out))
     return fmt::format(
-        "rests in {:.0f} % of its rows: little of what depends on the motion can be judged by it; "
-        "hold out "
+        "rests in {:.0f} % of its rows: little of what depends on the motion can be judged by it; hold out "
         "another recording, which moves",
         100.0 * (1.0 - held_out.moving));
   return "";

@@ -18,8 +18,8 @@ namespace {
 // place of x1 34 of 80 spoil where it was differenced, 40 where it was true; with half of kLeftOfSpeed 29 and
 // 32 (1 as they are, without the counts), with double 56 and 51 (17). A moved row is seen in one of five at
 // most: smooth motions hide it.
-constexpr double kGainOfRows =
-    1.4;  ///< what is left as it stands, over what is left when it is moved: worth a note
+/// What is left as it stands, over what is left when it is moved: worth a note.
+constexpr double kGainOfRows = 1.4;
 constexpr double kSurelyMoved = 2.0;   ///< … and that it spoils
 constexpr double kLeftOfSpeed = 0.5;   ///< of what the law of a position leaves: it spoils
 constexpr double kPerhapsSpeed = 0.8;  ///< … and is worth a note
@@ -81,9 +81,7 @@ std::optional<Finding> constant_input(const Material& m, const std::string& foun
               ", {} in the mean, which is {:.0f} % of its swing: a constant load, as gravity or a preload{}",
               figure(level), 100.0 * std::abs(level) / swing,
               has_one_sign(u) ? "; it never changes its sign" : ""),
-      "give the model constant_load_torque, or load_unbalance where an arm turns, estimated; a contact that "
-      "such "
-      "a load "
+      "give the model constant_load_torque, or load_unbalance where an arm turns, estimated; a contact that such a load "
       "holds closed does not open, and no gap shows then: unload it, or swing u about 0",
       true};
 }
@@ -131,8 +129,7 @@ std::optional<Finding> seeming_position(const Material& m) {
   return Finding{
       kPositionUnitRule, best < kLeftOfSpeed && !held ? Severity::kSpoils : Severity::kNote,
       fmt::format(
-          "u goes with the first difference of x1, not with the second: as a speed x1 leaves {} times "
-          "less of it",
+          "u goes with the first difference of x1, not with the second: as a speed x1 leaves {} times less of it",
           figure(1.0 / best, 2)),
       "name it as what it is, recording: columns: speed (--speed in place of --position)"};
 }

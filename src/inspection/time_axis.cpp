@@ -57,14 +57,14 @@ double off_a_pc_tick(const recording::RecordedRows& rows) {
 }
 
 Finding pc_clock(const Material& m, double off) {
-  return {kTimeRule, Severity::kSpoils,
-          fmt::format(
-              "all stamps are whole ticks of 15.6 ms, a PC's coarse clock; {:.0f} % of the rows are not one "
-              "tick after the row before, {} share a stamp",
-              100.0 * off, m.rows.skipped.size()),
-          "these are not the times at which x1 was read: record the drive's own clock or the PC's fine one; "
-          "where "
-          "the drive samples at a fixed rate, write t = row number / rate"};
+  return {
+      kTimeRule, Severity::kSpoils,
+      fmt::format(
+          "all stamps are whole ticks of 15.6 ms, a PC's coarse clock; {:.0f} % of the rows are not one "
+          "tick after the row before, {} share a stamp",
+          100.0 * off, m.rows.skipped.size()),
+      "these are not the times at which x1 was read: record the drive's own clock or the PC's fine one; where "
+      "the drive samples at a fixed rate, write t = row number / rate"};
 }
 
 Finding skipped_rows(const Material& m) {
@@ -137,12 +137,12 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
             fmt::format("a row in {:.4g} s: slower than a drive moves", s.median),
             "record at 50 Hz or more, 200 Hz for a gap"};
   if (facts.rate < kSlowest || facts.rate > kFastest)
-    return {kTimeRule, Severity::kSpoils,
-            fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,
-                        facts.rate),
-            "give t in seconds, or declare its unit: recording: units: {time: ms} (--time-unit ms; or us, "
-            "ns, or the "
-            "seconds per row number)"};
+    return {
+        kTimeRule, Severity::kSpoils,
+        fmt::format("t goes on by {:.4g} from row to row: {:.4g} Hz if it is in seconds", s.median,
+                    facts.rate),
+        "give t in seconds, or declare its unit: recording: units: {time: ms} (--time-unit ms; or us, ns, or the "
+        "seconds per row number)"};
   if (s.pauses > 0) return pauses(m, s, facts);
   if (!facts.uniform) return jitter(m, s, facts);
   if (m.rows.open_end)

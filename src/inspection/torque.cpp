@@ -134,10 +134,10 @@ Finding check_sign(const Material& m, RecordingFacts& facts) {
         found + ": the motion would drive the motor, as no passive load can for long",
         "turn the sign of u or of x1, for instance recording: gear_ratio: {position: -1} (unless a weight or "
         "another motor drives this one, or the columns of u and x1 are exchanged: --input, --position)"};
-  return {"sign", Severity::kNote,
-          found + fmt::format(": little, and less than none, as where x1 is {:.2g} ms late", 1e3 * delay),
-          "look whether a positive u accelerates towards positive x1, and whether t is that of u and of x1 "
-          "alike"};
+  return {
+      "sign", Severity::kNote,
+      found + fmt::format(": little, and less than none, as where x1 is {:.2g} ms late", 1e3 * delay),
+      "look whether a positive u accelerates towards positive x1, and whether t is that of u and of x1 alike"};
 }
 
 Finding check_scale(const Material& m, RecordingFacts& facts) {

@@ -84,9 +84,9 @@ std::vector<std::string> recorded_axes(const std::string& path, const RecordingC
   const std::string& pattern = columns.position;
   if (pattern.find(kAxisInName) == pattern.npos)
     throw ConfigError(
-        path, fmt::format("is asked for all axes, but the position is {}, expected a name with {{axis}} "
-                          "in it",
-                          shown(pattern)));
+        path,
+        fmt::format("is asked for all axes, but the position is {}, expected a name with {{axis}} in it",
+                    shown(pattern)));
   internal::recording::require_recording_file(path);
   std::vector<std::string> names, axes;
   if (internal::recording::kind_of(path).ending.empty()) {

@@ -29,7 +29,6 @@ std::string unit_of_another(std::string_view column, Quantity quantity);
 
 /// What is to be named as the input in its place, for messages.
 inline constexpr const char* kInputsOfDrives =
-    "the column of a torque, a force, a current, a voltage or a duty (one that is called so by mistake: "
-    "rename it)";
+    "the column of a torque, a force, a current, a voltage or a duty (one that is called so by mistake: rename it)";
 
 }  // namespace gapscope

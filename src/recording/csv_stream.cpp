@@ -69,11 +69,11 @@ struct CsvStream::State {
     if (internal::recording::is_uniform(first)) return;
     const std::size_t worst = internal::recording::worst_step(first);
     const double step = first.t[worst] - first.t[worst - 1], mean = internal::recording::mean_step(first);
-    first.fail(first.line[worst],
-               fmt::format("time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, "
-                           "expected every step within 0.1 % of the mean, or --resample RATE (here about "
-                           "{:.4g} Hz)",
-                           1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
+    first.fail(
+        first.line[worst],
+        fmt::format("time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, "
+                    "expected every step within 0.1 % of the mean, or --resample RATE (here about {:.4g} Hz)",
+                    1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
   }
 
   void set_clock() {
@@ -89,8 +89,7 @@ struct CsvStream::State {
     const double step = s.t - last;
     if (!(std::abs(step - dt) <= internal::recording::kUniformTolerance * dt))
       row.fail(fmt::format(
-          "time is not uniform: a step of {:.6g} ms, expected {:.6g} ms as before, within 0.1 %, or "
-          "--resample RATE",
+          "time is not uniform: a step of {:.6g} ms, expected {:.6g} ms as before, within 0.1 %, or --resample RATE",
           1e3 * step, 1e3 * dt));
     last = s.t;
     samples.push_back(s);

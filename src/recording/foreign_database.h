@@ -17,7 +17,7 @@ void write_whole(sqlite3* database);
 /// is read or written; empty where there is none, or no telling.
 std::string beside_tables(sqlite3* database);
 
-std::string text_at(sqlite3_stmt* row,
-                    int column);  ///< of a row that was stepped to; empty where there is none
+/// Of a row that was stepped to; empty where there is none.
+std::string text_at(sqlite3_stmt* row, int column);
 
 }  // namespace gapscope::internal::recording

@@ -57,8 +57,7 @@ void require_uniform(const RecordedRows& table) {
       table.line[worst],
       fmt::format(
           "time is not uniform: a step of {:.6g} ms, {:.3g} % off the mean of {:.6g} ms, expected every "
-          "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz); fit and "
-          "diagnose "
+          "step within 0.1 % of the mean, or resample: {{rate: ...}} (here about {:.4g} Hz); fit and diagnose "
           "take it as it is",
           1e3 * step, 100.0 * std::abs(step - mean) / mean, 1e3 * mean, 1.0 / mean));
 }

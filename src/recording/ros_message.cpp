@@ -187,15 +187,13 @@ std::optional<std::string> known_definition(const std::string& type) {
   const std::string header =
       "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n===\n" + stamp;
   if (bare(type) == "sensor_msgs/JointState")
-    return "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] "
-           "effort\n" +
+    return "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n" +
            header;
   if (bare(type) == "std_msgs/Float64") return "float64 data\n";
   if (bare(type) == "std_msgs/Float64MultiArray")
     return "MultiArrayLayout layout\nfloat64[] data\n===\nMSG: "
            "std_msgs/MultiArrayLayout\nMultiArrayDimension[] dim\n"
-           "uint32 data_offset\n===\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 "
-           "stride\n";
+           "uint32 data_offset\n===\nMSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride\n";
   return {};
 }
 

@@ -23,8 +23,8 @@ struct Information {
   Eigen::MatrixXd normal;   ///< JᵀJ with the priors (n × n)
   Eigen::VectorXd score;    ///< Jᵀr with the priors: half of the slope of the cost (n)
   Eigen::MatrixXd windows;  ///< Σ over windows of score·scoreᵀ, score = Jᵀr of the window (n × n)
-  Eigen::MatrixXd
-      quantiser;  ///< score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n)
+  /// score·scoreᵀ of the quantiser's error, averaged over where the counts lie (n × n).
+  Eigen::MatrixXd quantiser;
   double variance = 1.0;   ///< of a residual [floor²], never below the quantiser's
   double inflation = 1.0;  ///< samples per independent sample, from the autocorrelation
   Correlation correlation;

@@ -13,8 +13,8 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kDifference = 1e-4;           ///< of a number in solver units, or of one where that is more
 constexpr double kLeastSquaresDamping = 1e-3;  ///< Marquardt's λ
-constexpr int kMostTrials = 10,
-              kStaleTrials = 2;      ///< of a step, eight times as damped each; with older derivatives
+/// Of a step, eight times as damped each; with older derivatives.
+constexpr int kMostTrials = 10, kStaleTrials = 2;
 constexpr double kLeastGain = 5e-3;  ///< in the mean log of the sizes; less comes and goes with single stops
 constexpr int kRunsBySecants = 4;    ///< of Broyden between two derivatives by differences
 constexpr double kForetold = 0.5;    ///< share of the foretold gain that leaves the derivatives alone

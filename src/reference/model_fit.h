@@ -93,8 +93,8 @@ struct SineStart {
 struct ModelRun {
   PlantModel<double> plant;
   std::vector<DriveState<double>> starts;
-  std::vector<std::vector<double>> inputs =
-      {};  ///< that its controller makes of the targets; without one empty
+  /// That its controller makes of the targets; without one empty.
+  std::vector<std::vector<double>> inputs = {};
 
   /// A recording under the input that the model takes.
   MotorTrace under_own_input(const MotorTrace& recording, std::size_t r) const {

@@ -60,8 +60,7 @@ std::string excitation_for(const std::string& key) {
       {"contact_damping", "harder impacts"}};
   if (key == "controller.delay") return "steps of the target, or faster updates of it";
   if (key.starts_with("controller."))
-    return "a known mass on a known arm, a known inertia or a known friction torque (anchor), or the "
-           "recorded input";
+    return "a known mass on a known arm, a known inertia or a known friction torque (anchor), or the recorded input";
   const auto found = advice.find(key);
   return found == advice.end() ? "an input that brings this effect out" : found->second;
 }
@@ -81,8 +80,7 @@ Remark not_explained(double floors, double observer_hz) {
 Remark leaves_some(double unexplained_percent, double observer_hz) {
   return {
       "leaves_some",
-      "{:.2g} % of what the [torque] does to the motion is left unexplained: values are those of an observer "
-      "at "
+      "{:.2g} % of what the [torque] does to the motion is left unexplained: values are those of an observer at "
       "{:.3g} Hz; intervals hold their scatter over windows, gains and parts of the recordings, not what the "
       "missing physics may bias.",
       {unexplained_percent, observer_hz}};
@@ -183,14 +181,13 @@ Remark gap_bears_little(double ratio, double floors) {
 }
 Remark gap_differs() {
   return {"gap_differs",
-          "Parts of the recording ask for different gaps: what the model reads as a gap is "
-          "something else."};
+          "Parts of the recording ask for different gaps: what the model reads as a gap is something else."};
 }
 Remark odd_coupling(const std::string& key, double value, const std::string& unit) {
-  return {"odd_coupling",
-          "It misses the recording even with {} at its bound ({:.3g} {}): the coupling stands in for "
-          "something else.",
-          {key, value, RemarkUnit{unit}}};
+  return {
+      "odd_coupling",
+      "It misses the recording even with {} at its bound ({:.3g} {}): the coupling stands in for something else.",
+      {key, value, RemarkUnit{unit}}};
 }
 Remark not_settled() { return {"not_settled", "The iterations ran out before the cost settled."}; }
 Remark gap_at_bound() { return {"gap_at_bound", "The gap ended at its bound."}; }
@@ -238,10 +235,9 @@ Doubt mistimed(const InputTiming& timing) {
       "input_timing",
       fmt::format("the motion answers to the input {:.2g} ± {:.1g} rows {} its row",
                   std::abs(timing.early_rows), timing.std_rows, early ? "before" : "after"),
-      early ? "u changes between the rows, or its rows come too late: record at the rate of the drive's loop"
-            : "the drive acts later than its log says, or u's rows come too early: record u and x1 of the "
-              "same "
-              "instant"};
+      early
+          ? "u changes between the rows, or its rows come too late: record at the rate of the drive's loop"
+          : "the drive acts later than its log says, or u's rows come too early: record u and x1 of the same instant"};
 }
 Doubt patterned(const Correlation& correlation) {
   return {"not_random",

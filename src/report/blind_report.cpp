@@ -50,8 +50,7 @@ std::string size_lines(const BlindScore& s) {
   return fmt::format(
       "\nShrink of the held-out error, of effects that were named and had at least 3 floors of mismatch: "
       "median {} (aim 0.97), tenth percentile {} (aim 0.8); of effects whose law is another than the "
-      "catalogue's, median {} (aim 0.9). Effects in a group that the data does not separate: median {}, mean "
-      "{}.\n",
+      "catalogue's, median {} (aim 0.9). Effects in a group that the data does not separate: median {}, mean {}.\n",
       number(s.shrink_median, 3), number(s.shrink_tenth, 3), number(s.shrink_other_law, 3),
       number(s.group_median, 0), number(s.group_mean, 2));
 }
@@ -102,8 +101,7 @@ std::string seal_sentence(const BlindScore& s) {
   if (s.announced_seal.empty())
     return "Labels and answers are those that were sealed; whether the answers were sealed before the labels "
            "were opened was not checked: no seal was announced (`blind score --seal`).";
-  return "Labels and answers are those that were sealed, and the answers' seal is the one that was announced "
-         "(" +
+  return "Labels and answers are those that were sealed, and the answers' seal is the one that was announced (" +
          s.announced_seal + ").";
 }
 

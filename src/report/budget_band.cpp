@@ -10,9 +10,9 @@
 namespace gapscope::internal::report {
 namespace {
 
-constexpr double kHalfPower =
-    0.443;                       ///< top of the band times the length of a mean that passes half its power
-constexpr double kDrawn = 0.99;  ///< share of the values that an axis shows at least
+/// Top of the band times the length of a mean that passes half its power.
+constexpr double kHalfPower = 0.443;
+constexpr double kDrawn = 0.99;          ///< share of the values that an axis shows at least
 constexpr double kFarBeyondShare = 1.5;  ///< times that share's reach: nearer ones are drawn all
 
 /// Samples on either side of the mean; 0: nothing is taken off.

@@ -19,8 +19,8 @@ struct Shown {
 };
 using Look = Shown (*)(const EstimatorScore&);
 
-constexpr double kSheetWidth =
-    3180.0;  ///< of two columns of a journal, in which two or three maps stand [px]
+/// Of two columns of a journal, in which two or three maps stand [px]
+constexpr double kSheetWidth = 3180.0;
 
 constexpr Colour kNothing{214, 214, 214};
 constexpr Colour kDark{8, 48, 107};

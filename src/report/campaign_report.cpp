@@ -164,8 +164,7 @@ std::string campaign_text(const CampaignSummary& s, const std::vector<FigureData
   text += s.total.failed > 0 ? fmt::format(", of which {} failed", s.total.failed) : "";
   if (s.repeated > 0)
     text += fmt::format(
-        ", of which {} are another one to the last digit: their seeds change nothing, and they are not "
-        "counted",
+        ", of which {} are another one to the last digit: their seeds change nothing, and they are not counted",
         s.repeated);
   text +=
       ". An answer is the gap: a bound is none, nor is a play at zero torque, the first of several gaps, or "

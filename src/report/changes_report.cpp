@@ -46,8 +46,7 @@ std::string comparison_text(const DriveChanges& all, const std::vector<FigureDat
   text += bullet_section("Warnings", all.warnings) + figure_section(figures) + "\n## Quantities\n\n";
   text += all.quantities.empty() ? "No report gives one.\n" : table(all);
   text +=
-      "\nThe interval of a difference is that of this row alone; a verdict considers all rows together. "
-      "Intervals\n"
+      "\nThe interval of a difference is that of this row alone; a verdict considers all rows together. Intervals\n"
       "are those of single recordings: what a drive does differently from day to day (temperature, grease,\n"
       "where it stands) is not in them, so a change that was not looked for should be seen again.\n";
   if (all.reports.size() > 2)

@@ -11,12 +11,12 @@ namespace gapscope::internal::report {
 /// The figures of a diagnosis, the overview sheet first.
 std::vector<FigureData> diagnosis_figures(const DiagnosisResult& result);
 
-FigureData diagnosis_traces(
-    const DiagnosisResult& result);  ///< error and correcting torque, before and after
+/// Error and correcting torque, before and after.
+FigureData diagnosis_traces(const DiagnosisResult& result);
 FigureData diagnosis_ranking(const DiagnosisResult& result);  ///< held-out score of every candidate
 FigureData diagnosis_where(const DiagnosisResult& result);    ///< the seven maps
-FigureData diagnosis_torque_map(
-    const DiagnosisResult& result);  ///< correcting torque over speed, angle and input
+/// Correcting torque over speed, angle and input.
+FigureData diagnosis_torque_map(const DiagnosisResult& result);
 
 /// What a report tells of a diagnosis: its sentence and its tables.
 std::string diagnosis_text(const DiagnosisResult& result);

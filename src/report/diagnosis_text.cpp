@@ -221,9 +221,9 @@ std::string steps_table(const DiagnosisResult& r) {
   }
   if (text.empty()) return "";
   return std::string("\n## Further steps\n\n") +
-         (added(r) ? "Every candidate was refitted on top of what was found before it."
-                   : "No candidate was sure: every other was tried on top of the likeliest, and none bore it "
-                     "out.") +
+         (added(r)
+              ? "Every candidate was refitted on top of what was found before it."
+              : "No candidate was sure: every other was tried on top of the likeliest, and none bore it out.") +
          "\n\n| on top of | effect | outcome | not separable from | error before | after | error removed | "
          "parameters | made superfluous | what remains |\n|---|---|---|---|---|---|---|---|---|---|\n" +
          text;

@@ -200,8 +200,7 @@ std::string budget_table(const DiagnosisResult& r) {
       "\n## Error budget\n\nMissing {}: what the input applies and the model does not account for, rms on "
       "held-out data below {} Hz. The input applies {} in all. Every line refits all numbers of the lines "
       "above it. *Share*: of the mean square that was left (95 % by blocks of held-out time); *alone*: of "
-      "what the nominal model leaves; *last*: of what all the others leave, which is what no other can "
-      "say.\n\n"
+      "what the nominal model leaves; *last*: of what all the others leave, which is what no other can say.\n\n"
       "| added | left | of the input | share | 95 % | alone | last |\n|---|---|---|---|---|---|---|\n"
       "| the model as it is | {} | {} | | | | |\n",
       torque_of(r), rounded(b.band_hz, 2), quantity(b.input, budget_unit(r)),

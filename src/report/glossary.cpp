@@ -25,8 +25,7 @@ constexpr Word kWords[] = {
      "position error of the super-twisting differentiator, and the bound on the acceleration that it is "
      "given: e_x rests near zero while the motion stays below L"},
     {"encoder floor", "encoder floor",
-     "what the encoder leaves of the error of a perfect model: its quantum over √12, or its noise where that "
-     "is more"},
+     "what the encoder leaves of the error of a perfect model: its quantum over √12, or its noise where that is more"},
     {"repeatability floor", "repeatability floor",
      "how far the drive repeats its own motion from one period of the input to the next (rms difference over "
      "√2): an error below it does not show in a recording like this"},
@@ -48,8 +47,7 @@ constexpr Word kWords[] = {
      "ripple at the higher one"},
     {"issing torque", "missing torque",
      "rms of the torque that the input applies and the model does not account for, on held-out data and "
-     "below the frequency of the error budget (with no budget: the correcting torque): the torque on the "
-     "card"},
+     "below the frequency of the error budget (with no budget: the correcting torque): the torque on the card"},
     {"issing force", "missing force",
      "rms of the force that the input applies and the model does not account for, on held-out data and below "
      "the frequency of the error budget (with no budget: the correcting force): the force on the card"},
@@ -60,15 +58,13 @@ constexpr Word kWords[] = {
      "the force that would correct an observer at 30 Hz, sample by sample: noise of the encoder is in it. "
      "Figures over time, position, speed and input show what of it is slow"},
     {"error removed", "error removed",
-     "(error before − after) / (before − floor), as median over windows: 1 reaches the floor, below 0 it is "
-     "worse"},
+     "(error before − after) / (before − floor), as median over windows: 1 reaches the floor, below 0 it is worse"},
     {"explained share", "explained share",
      "share of the way to the floor in the mean logarithm of prediction and free-run error, which a few "
      "large errors cannot decide: 1 at the floor, below 0 worse than without; candidates are ranked by it, "
      "but a simple effect goes before one that contains it"},
     {"| windows better |", "windows better",
-     "share of the held-out windows (half a second each, or less) above the floor in which its free run errs "
-     "less"},
+     "share of the held-out windows (half a second each, or less) above the floor in which its free run errs less"},
     {"not in the catalogue", "not in the catalogue",
      "none of the effects that `gapscope effects` lists is what is missing"},
     {"not separable from", "not separable from",

@@ -111,8 +111,7 @@ std::string law_table(const DiagnosisResult& r) {
         "\n## What remains, as a function of {}\n\nThe law says nothing of a cause. Refitted in the "
         "simulator it explains {} of the held-out error above the floor (95 %: {} to {}); the correcting {} "
         "falls from {} to {}. `{}` holds the table to add to the motor's {}, `fitted_with_law.yaml` the "
-        "model with the law. The interval is for recordings within the table: what lies beyond it has not "
-        "been seen.\n",
+        "model with the law. The interval is for recordings within the table: what lies beyond it has not been seen.\n",
         law.variable, rounded(law.shrink), rounded(law.shrink_ci95.low), rounded(law.shrink_ci95.high),
         r.coordinates.torque_word(), quantity(law.before_torque, r.coordinates.shown_unit("N m")),
         quantity(law.after_torque, r.coordinates.shown_unit("N m")), compensation_name(law),

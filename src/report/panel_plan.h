@@ -16,8 +16,8 @@ inline constexpr double kTitleSize = 46.0;
 inline constexpr double kTextSize = 40.0;
 inline constexpr double kTickSize = 38.0;
 inline constexpr double kSpace = 14.0;  ///< between neighbouring pieces
-inline constexpr double kToTicks =
-    24.0;  ///< from the frame to the numbers below it: clear of those beside it
+/// From the frame to the numbers below it: clear of those beside it.
+inline constexpr double kToTicks = 24.0;
 inline constexpr double kTitleGap = 4.0;  ///< below a panel's title
 inline constexpr double kRim = 26.0;      ///< around everything
 inline constexpr double kSample = 70.0;   ///< line sample in a legend

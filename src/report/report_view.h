@@ -16,8 +16,8 @@ struct ReportView {
   explicit ReportView(const RunResult& result);
 
   const RunResult& run;
-  const Recording* recording =
-      nullptr;                        ///< the one with most accepted passages, else the first; nullptr: none
+  /// The one with most accepted passages, else the first; nullptr: none.
+  const Recording* recording = nullptr;
   const ErrorTrace* error = nullptr;  ///< nullptr where there is none
   const FitTrace* fit = nullptr;
   std::vector<GapEvent> events;  ///< of this recording, in time

@@ -39,8 +39,8 @@ struct EstimatorScore {
   double bias = kNaN;          ///< median of (estimate − true)/true [-]
   Interval bias_ci;            ///< 95 %, of the order statistics; NaN for fewer than 6 runs [-]
   double median_width = kNaN;  ///< of the intervals [-]
-  double interval_score =
-      kNaN;              ///< mean of width + 40 × what the true gap lies outside (Gneiting and Raftery) [-]
+  /// Mean of width + 40 × what the true gap lies outside (Gneiting and Raftery) [-]
+  double interval_score = kNaN;
   double passes = kNaN;  ///< median of CampaignEstimate::passes
 
   double refusal() const { return runs > 0 ? 1.0 - static_cast<double>(answered) / runs : kNaN; }

@@ -24,13 +24,11 @@ constexpr Carriage kByMjcf[] = {
     {"contact_damping", kWhole, "solreflimit of the tendon: −c (1/m1 + 1/m2)"},
     {"motor_coulomb_friction", kWhole, "frictionloss of the motor's joint"},
     {"friction_asymmetry", kNearly,
-     "frictionloss of the mean level and a constant actuator for the difference; the viscous part is the "
-     "mean of "
+     "frictionloss of the mean level and a constant actuator for the difference; the viscous part is the mean of "
      "both directions, the rest needs qfrc_applied in your loop",
      "viscous_ratio"},
     {"stribeck_friction", kNearly,
-     "frictionloss of the level at speed; what break-away needs beyond it calls for MuJoCo 3.7 (dcmotor with "
-     "lugre)"},
+     "frictionloss of the level at speed; what break-away needs beyond it calls for MuJoCo 3.7 (dcmotor with lugre)"},
     {"presliding_friction", kNearly,
      "frictionloss of the level; the bristle needs MuJoCo 3.7 (dcmotor with lugre)"},
     {"load_dependent_friction", kNearly,
@@ -38,8 +36,7 @@ constexpr Carriage kByMjcf[] = {
     {"constant_load_torque", kWhole, "a general actuator with a bias and no gain"},
     {"load_unbalance",
      kWhole,
-     "a mass beside the axis, under gravity 9.81 m/s² along −z; only m g r is known, and the mass stands for "
-     "it "
+     "a mass beside the axis, under gravity 9.81 m/s² along −z; only m g r is known, and the mass stands for it "
      "at an arm that is assumed",
      {},
      "periods_per_turn"},

@@ -80,8 +80,7 @@ std::string certificate_text(const Certificate& c) {
   for (const std::string& file : c.files) text += fmt::format("- `{}`\n", file);
   text += "\n## What was carried\n\n" + parts_table(c);
   text += fmt::format(
-      "\n## How far the target is from the model\n\nError of x1 against gapscope's simulator, free run of "
-      "{:.3g} s "
+      "\n## How far the target is from the model\n\nError of x1 against gapscope's simulator, free run of {:.3g} s "
       "under {}, travel {} {} peak to peak. The encoder's floor (its rounding) is {} {}.\n\n",
       c.duration, c.input, in_thousandths(c.travel), unit, in_thousandths(c.encoder_floor), unit);
   text += errors_table(c) + (c.limits.empty() ? "" : "\n" + limits_list(c));

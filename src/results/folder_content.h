@@ -41,8 +41,8 @@ bool is_stored(const std::string& file);
 /// Files of a kind that others write and watch over: the store of a campaign, the labels and answers of a
 /// blind check.
 bool is_left_alone(const std::string& kind, const std::string& file);
-std::vector<std::string> files_left_alone(const std::filesystem::path& folder,
-                                          const std::string& kind);  ///< there are
+/// Those of a kind that are there.
+std::vector<std::string> files_left_alone(const std::filesystem::path& folder, const std::string& kind);
 
 /// Gives what is in a hidden folder a name in another one that shows: it could not be put back.
 /// @returns that name; empty where there was nothing

@@ -178,8 +178,8 @@ class JsonReader {
   void operator()(const char* key, std::vector<Remark>& values);
   void operator()(const char* key, std::vector<double>& values);
   void bound(const char* key, double& value);
-  void addition(const char* key,
-                std::string& value);                ///< empty in files that were written before it was stored
+  /// Empty in files that were written before it was stored.
+  void addition(const char* key, std::string& value);
   void addition(const char* key, double& value);    ///< NaN there
   void addition(const char* key, Remark& value);    ///< empty there
   void addition(const char* key, Interval& value);  ///< NaN there
@@ -259,8 +259,9 @@ class JsonReader {
     }
   }
   template <class Struct, class Member>
+  /// As they were in files without it.
   void added_members(const char* key, std::vector<Struct>& values, std::string Struct::*name,
-                     Member Struct::*member) {  ///< as they were in files without it
+                     Member Struct::*member) {
     if (json_.contains(key)) named_members(key, values, name, member);
   }
   template <class Struct>

@@ -62,8 +62,8 @@ class ReportFolder {
 
   // Each takes over what the other kind of command stored here, so that the new report shows it too, if it is
   // of the same version, configuration and recordings; else it is dropped, and dropped() says so.
-  void keep_estimate(const std::string& version,
-                     const std::vector<FileHash>& sources);  ///< of run, detect, fit
+  /// Of run, detect, fit.
+  void keep_estimate(const std::string& version, const std::vector<FileHash>& sources);
   void keep_diagnosis(const std::string& version, const std::vector<FileHash>& sources);  ///< of diagnose
 
   /// A sentence on what was not taken over; empty where nothing was there, or all goes together.

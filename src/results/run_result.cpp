@@ -198,10 +198,10 @@ Json result_schema() {
   const auto describe = [](Json& properties, const char* key, const char* text) {
     properties[key]["description"] = text;
   };
-  describe(estimate, "smallest_visible_gap_rad",
-           "smallest gap that would have shown, for loads of 0.3 of the motor's inertia and more, by "
-           "none of 0.1 "
-           "and more; null where it is not known, and where it is no smaller than a gap that shows");
+  describe(
+      estimate, "smallest_visible_gap_rad",
+      "smallest gap that would have shown, for loads of 0.3 of the motor's inertia and more, by none of 0.1 "
+      "and more; null where it is not known, and where it is no smaller than a gap that shows");
   describe(
       estimate, "gap_at_most_rad",
       "no gap is larger: by the denial, by the loop of lost motion, whose play at one torque level is a "

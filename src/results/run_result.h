@@ -33,8 +33,8 @@ struct RunResult {
   double simulated_gap = kNaN;                  ///< 2β of the simulated plant [rad]; NaN for recorded data
   std::vector<Recording> recordings;            ///< stored as traces, not in the JSON
   std::optional<InputFacts> input = {};         ///< absent where nothing is known of it
-  std::vector<std::string> simulated_data =
-      {};                          ///< sentences on data that no drive has made; empty: none known
+  /// Sentences on data that no drive has made; empty: none known.
+  std::vector<std::string> simulated_data = {};
   std::vector<Doubt> doubts = {};  ///< of the recordings, as check finds them, for what the answer rests on
   std::vector<std::string> notes;  ///< what was done to the data, readings of the configuration
 };

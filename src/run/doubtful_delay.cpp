@@ -45,12 +45,9 @@ std::string doubtful_delay(const Configuration& c, std::vector<MotorTrace> fitte
     if (!stands || 2 * later > trace.size()) continue;
     if (beginning.empty())
       beginning = fmt::format(
-          "{} begins with its input on while the motor is still at rest ({:.3g} units of u, {:.3g} ms): what "
-          "was "
+          "{} begins with its input on while the motor is still at rest ({:.3g} units of u, {:.3g} ms): what was "
           "sent before the first row is not in it, and no model follows that. Leave out the beginning and "
-          "diagnose again, `recording: {{window: [{:.4g}, {:.4g}]}}`: what helps and what is left can "
-          "change, "
-          "and the",
+          "diagnose again, `recording: {{window: [{:.4g}, {:.4g}]}}`: what helps and what is left can change, and the",
           trace.file, trace.u.front(), 1e3 * *stands, trace.start + kLater, trace.time(trace.size() - 1));
     trace = part(trace, later, trace.size() - later);
   }

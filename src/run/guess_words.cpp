@@ -33,8 +33,7 @@ std::string hanging_warning(const Configuration& c, double phase) {
   if (!(std::min(hangs - low, high - hangs) < kEdge * (high - low))) return "";
   return fmt::format(
       "the arm of the anchor ended at the edge of where it may hang ({:.4g} to {:.4g} rad): it hangs "
-      "elsewhere, and no torque, inertia or friction here is right -> anchor: hangs_at: the position at "
-      "which "
+      "elsewhere, and no torque, inertia or friction here is right -> anchor: hangs_at: the position at which "
       "the arm hangs down, e.g. {{value: 3.14, estimate: true, bounds: [2.64, 3.64]}} (or a bare number).",
       low, high);
 }

@@ -76,8 +76,7 @@ double largest_travel(const std::vector<Recording>& recordings) {
 /// "... eq. (13) with the configuration's numbers (|u| <= 0.5, G = 5e-05 N·m): 98.01 < L < 147 rad/s²; ..."
 std::string told_bound(const PublishedBound& p, Coordinates coordinates, double taken) {
   return fmt::format(
-      "bound of the paper's eq. (13) with the configuration's numbers (|u| <= {:.4g}, G = {:.3g} {}): {:.4g} "
-      "< L < "
+      "bound of the paper's eq. (13) with the configuration's numbers (|u| <= {:.4g}, G = {:.3g} {}): {:.4g} < L < "
       "{:.4g} {}; {}",
       p.known.input_limit, p.known.load_force_bound, coordinates.shown_unit("N m"), p.bound.low, p.bound.high,
       coordinates.shown_unit("rad/s^2"),

@@ -117,8 +117,7 @@ SignalFacts read_facts(const MotorTrace& trace) {
   if (facts.half_periods < kFewestHalfPeriods)
     facts.defect = {
         "no_period",
-        "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods "
-        "or more",
+        "no periodic motion: {} half periods found, {} needed; excite with a sine and record three periods or more",
         {static_cast<long>(facts.half_periods), static_cast<long>(kFewestHalfPeriods)}};
   else if (!(facts.speed_rms < kFastest))
     facts.defect = {"jumps", "x1 jumps farther than any motion does: look for a spike, and for the unit"};

@@ -71,8 +71,7 @@ std::string multisine_problem(const Excitation& e, double rate, double duration)
   const double first = std::max(1.0, std::round(e.low * period)), last = std::round(e.high * period);
   if (last - first + 1.0 >= e.lines) return "";
   return fmt::format(
-      "{} lines between {} and {} Hz, expected at most {} because lines are multiples of 1/period = {:.6g} "
-      "Hz",
+      "{} lines between {} and {} Hz, expected at most {} because lines are multiples of 1/period = {:.6g} Hz",
       e.lines, e.low, e.high, std::max(0.0, last - first + 1.0), 1.0 / period);
 }
 

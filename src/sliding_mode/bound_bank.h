@@ -8,8 +8,8 @@
 
 namespace gapscope {
 
-inline constexpr std::size_t kBankBounds =
-    24;  ///< that detect_gap() runs over a recording, beside what it fits
+/// That detect_gap() runs over a recording, beside what it fits.
+inline constexpr std::size_t kBankBounds = 24;
 
 namespace internal::sliding_mode {
 

@@ -94,11 +94,11 @@ std::string implicitly_damped(const SimulatorRow& row, const std::vector<Simulat
 /// Semi-implicit Euler is half a step ahead.
 std::string ahead_by_half_a_step(double ahead, double dt) {
   const double step = step_of_solver(2.0 * ahead, dt);
-  return step > 0.0 ? fmt::format(
-                          ", as a semi-implicit Euler method at a step of {:.2g} ms leaves it, being half a "
-                          "step ahead",
-                          1e3 * step)
-                    : "";
+  return step > 0.0
+             ? fmt::format(
+                   ", as a semi-implicit Euler method at a step of {:.2g} ms leaves it, being half a step ahead",
+                   1e3 * step)
+             : "";
 }
 
 /// What a fixed step leaves in a delay, or in the lag that is told for it; of a delay, how many samples it

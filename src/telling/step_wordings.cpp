@@ -18,8 +18,7 @@ constexpr Wording kSteps[] = {
      "Put a gap into the model first: write the configuration again with `gapscope init ... --model gap` "
      "(and the motor's own inertia, `--inertia`, where its data sheet has it), and diagnose that."},
     {"next.read_gap",
-     "Read the gap with what was found in the model: `gapscope run CONFIG --model-from DIR/fitted.yaml -o "
-     "DIR_gap`."},
+     "Read the gap with what was found in the model: `gapscope run CONFIG --model-from DIR/fitted.yaml -o DIR_gap`."},
     {"next.estimate",
      "Let the fit estimate what the configuration holds ({held}: {estimate}), and diagnose again: while such "
      "a number is wrong, effects make up for it."},
@@ -27,8 +26,7 @@ constexpr Wording kSteps[] = {
      "Swap `file` and `held_out` and diagnose again: the recording that is held out now moves more, and "
      "shows more when it is fitted."},
     {"next.go_on",
-     "[{first} ]`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more` goes on from what was "
-     "found."},
+     "[{first} ]`gapscope diagnose CONFIG --model-from DIR/fitted.yaml -o DIR_more` goes on from what was found."},
     {"next.do_not_rely",
      "Do not rely on `DIR/fitted.yaml` yet: {left} of the {torque} is unexplained with all that was found. "
      "Record another motion ({motion})[, or {swap}], and diagnose again.",
@@ -47,8 +45,7 @@ constexpr Wording kSteps[] = {
     {"next.simulate.runs_away",
      "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it runs away."},
     {"next.short_motions",
-     "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it drifts by {drift} of "
-     "the travel."},
+     "Simulate short motions alone with `DIR/fitted.yaml`: over a whole recording it drifts by {drift} of the travel."},
     {"next.numbers", "Simulate with the numbers of `DIR/fitted.yaml`."},
     {"next.export",
      "`gapscope export DIR --to {format} -o DIR_{format}` writes {what} for other simulators."},
@@ -59,8 +56,7 @@ constexpr Wording kSteps[] = {
     {"next.confirm",
      "To see whether that holds elsewhere, record another motion ({motion}) and diagnose again with that."},
     {"next.mend_simulator",
-     "Mend your simulator: {rows}, as the table of drive and simulator has it; `fitted.yaml` has the drive's "
-     "numbers."},
+     "Mend your simulator: {rows}, as the table of drive and simulator has it; `fitted.yaml` has the drive's numbers."},
     {"next.record_input",
      "Record the motor's input as well (duty, current or torque), and diagnose from that."},
     {"next.record_motion",
@@ -71,8 +67,7 @@ constexpr Wording kSteps[] = {
      "Record {input} for {duration} s: it would separate the two causes by {by:,}."},
     {"next.experiment.contained", "If {truth} is the cause, no input can tell, because {rival} contains it."},
     {"next.experiment.travel",
-     "The models travel {travel} in it: check first that stops, speed and temperature of the drive allow "
-     "that."},
+     "The models travel {travel} in it: check first that stops, speed and temperature of the drive allow that."},
     {"next.experiment.none", "No input within the limits would tell {rivals:from} by one σ of the encoder."},
     {"next.experiment.limits",
      "Widen the limits where the drive may move farther (`next_experiment:` of the configuration), or use "
@@ -117,11 +112,9 @@ constexpr Wording kSteps[] = {
      "Add ramps to half the smallest torque: the gap is at most the lost motion there, and wind-up shrinks "
      "with the torque."},
     {"next.hold_output",
-     "Hold the output and record slow ramps of both directions: their lost motion is the play of all gaps "
-     "together."},
+     "Hold the output and record slow ramps of both directions: their lost motion is the play of all gaps together."},
     {"next.two_levels",
-     "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it is no "
-     "gap."},
+     "Repeat the ramps at half and at twice the torque: the part of the lost motion that grows with it is no gap."},
 };
 
 }  // namespace

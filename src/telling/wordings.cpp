@@ -23,8 +23,7 @@ constexpr Wording kWordings[] = {
     {"gap.reference.agrees", "The fitted model agrees."},
     {"gap.model_free.contradicts", "But without a model it reads {other}."},
     {"gap.first",
-     "There are several gaps in series: the first is {gap}, all together are about {whole}, by two impacts "
-     "in "
+     "There are several gaps in series: the first is {gap}, all together are about {whole}, by two impacts in "
      "each passage."},
     {"gap.first.reference", "The fitted model, which has one gap, gives {other}."},
     {"gap.model_free.first",
@@ -87,8 +86,7 @@ constexpr Wording kWordings[] = {
     {"trust.good", "Trust: good."},
     {"trust.limited", "Trust: limited."},
     {"trust.limited.light_load",
-     "Trust: limited (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm "
-     "it)."},
+     "Trust: limited (it holds for loads of at least 0.2 of the motor's inertia; a fitted model can confirm it)."},
     {"trust.limited.floors",
      "Trust: limited (the model leaves {floors} times the encoder's noise, and the interval does not hold "
      "what it lacks)."},
@@ -186,8 +184,7 @@ constexpr Wording kWordings[] = {
      "One of these is missing[ once {open} {open?is|are} in the model]: {group:or}. These recordings cannot "
      "tell which; `fitted.yaml` has {first}."},
     {"cause.group.likely", "One of these is likely to be missing: {group:or}.",
-     "One of these is likely to be missing: {group:or}. These recordings cannot tell which; `fitted.yaml` "
-     "has {first}."},
+     "One of these is likely to be missing: {group:or}. These recordings cannot tell which; `fitted.yaml` has {first}."},
     {"cause.group.one_law", "One of these is missing: {group:or}.",
      "One of these is missing: {group:or}. No recording can tell which: dry friction that differs with the "
      "direction is the same as equal friction and a constant torque; `fitted.yaml` has {first}."},
@@ -235,8 +232,7 @@ constexpr Wording kWordings[] = {
      "Over the held-out input it is {off} rms off the drive. The comparison uses a model fitted to it, which "
      "is {miss} off it."},
     {"simulator.mended",
-     "Its error, {error}, falls to {mended} with {first} mended, by {share}[; with all {rows} rows it is "
-     "{all}]."},
+     "Its error, {error}, falls to {mended} with {first} mended, by {share}[; with all {rows} rows it is {all}]."},
     {"simulator.not_mended",
      "Its error, {error}, does not fall with {first} alone mended[; with all {rows} rows it is {all}]."},
     // What helps.

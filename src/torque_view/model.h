@@ -27,9 +27,9 @@ double first_coefficient(const Model& model, std::string_view law);  ///< its fi
 
 /// Recordings of one purpose in one band, their rows one below the other.
 struct Rows {
-  std::shared_ptr<const std::vector<BandRecord>> shared =
-      std::make_shared<std::vector<BandRecord>>();  ///< by copies, which only have their own torques
-  std::vector<Eigen::Index> first;                  ///< row of each record, and the end
+  /// Shared by copies, which only have their own torques.
+  std::shared_ptr<const std::vector<BandRecord>> shared = std::make_shared<std::vector<BandRecord>>();
+  std::vector<Eigen::Index> first;  ///< row of each record, and the end
   Eigen::VectorXd u;
   bool free_constant = false;  ///< one per recording: all columns without their mean
   std::vector<double> level;   ///< of the inputs, which the constants take; 0 without them [unit of u]

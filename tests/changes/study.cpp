@@ -215,8 +215,7 @@ void count_pairs(std::uint64_t first, int count) {
   PairCounts n;
   for (int i = 0; i < count; ++i) count_pair(first + static_cast<std::uint64_t>(i), n);
   fmt::print(
-      "of {} that leave two floors: named alone {}, with look-alikes {}, another one {}, none {}; not asked "
-      "{} of all\n"
+      "of {} that leave two floors: named alone {}, with look-alikes {}, another one {}, none {}; not asked {} of all\n"
       "of {} in which nothing changed: none {}\n"
       "rows: {} differences, {} within their 95 %; changed rightly {}, wrongly {}\n",
       n.seen, n.named, n.in_group, n.wrong, n.none, n.unfit, n.same, n.same_told, n.rows, n.inside,
@@ -292,8 +291,7 @@ void count_units(std::uint64_t first, int count) {
     alarms += !internal::changes::odd_units(drawn_reports(g, unlike, -1, 1.0, 0, 0)).empty();
   }
   fmt::print(
-      "of {} odd units: named first {}; of {} that lie more than six errors and spreads off {}; another one "
-      "named "
+      "of {} odd units: named first {}; of {} that lie more than six errors and spreads off {}; another one named "
       "in {}\nof {} fleets without an odd one: one named in {}\n",
       count, found, large, found_large, wrong, count, alarms);
 }

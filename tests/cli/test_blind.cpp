@@ -38,8 +38,7 @@ TEST(Blind, ThreeCommandsDoWhatOneDoes) {
 }
 
 constexpr const char* kOwnDrive =
-    "name: axis\nmodel: {parameters: {torque_constant: 0.172, motor_inertia: {value: 0.0018, estimate: "
-    "true}, "
+    "name: axis\nmodel: {parameters: {torque_constant: 0.172, motor_inertia: {value: 0.0018, estimate: true}, "
     "motor_damping: {value: 0.02, estimate: true}, mass_ratio: 0}}\nencoder: {bits: 16}\n";
 
 TEST(Blind, ImplantsIntoOwnRecordingsInThreeCommandsAndInOne) {

@@ -41,8 +41,7 @@ const std::vector<Damage> kDamages = {
     {"coordinates", kResult, "\"rotation\"", "\"spiral\"",
      "report/result.json:5: coordinates is \"spiral\", expected one of rotation, translation"},
     {"verdict", kResult, "\"verdict\": \"backlash\"", "\"verdict\": \"maybe\"",
-     "report/result.json:{line}: model_free.verdict is \"maybe\", expected one of backlash, none, "
-     "inconclusive"},
+     "report/result.json:{line}: model_free.verdict is \"maybe\", expected one of backlash, none, inconclusive"},
     {"number_as_text", kResult, "\"scale\": ", "\"scale\": \"1\", \"was\": ",
      "report/result.json:{line}: model_free.scale is \"1\", expected a number or null"},
     {"interval_of_three", kResult, "\"ci95_rad\": [", "\"ci95_rad\": [0, ",

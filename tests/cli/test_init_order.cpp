@@ -47,8 +47,7 @@ TEST(InitOrder, TheCommandForTheOtherWayRoundReadsTheFilesAsTheFirstOneDid) {
   place.file("rich.csv", one_body_csv(input));
   place.file("poor one.csv", one_body_csv(weak));
   const std::string options =
-      " --input-unit 'N m' --position-unit deg --gear-ratio=-30 --window 0.5 5.5 "
-      "--model one_body";
+      " --input-unit 'N m' --position-unit deg --gear-ratio=-30 --window 0.5 5.5 --model one_body";
   const auto wrong = place.run("init 'poor one.csv' --held-out rich.csv -o first.yaml" + options);
   ASSERT_EQ(wrong.status, 0) << wrong.err;
   const std::string start = "-> gapscope ", all = wrong.out.substr(wrong.out.find(start) + start.size());

@@ -23,8 +23,7 @@ TEST(Pipes, AreRefusedAtOnceWhateverNamesThem) {
        {"pipe.csv", "pipe.mat", "pipe.npz", "pipe.h5", "pipe.db3", "pipe.mcap", "pipe.json", "pipe.xml"})
     ASSERT_EQ(mkfifo(at(name).c_str(), 0600), 0);
   const std::string model =
-      "model: {parameters: {motor_inertia: 8.78e-4, torque_constant: 0.172, motor_damping: 0.01, mass_ratio: "
-      "0}}\n";
+      "model: {parameters: {motor_inertia: 8.78e-4, torque_constant: 0.172, motor_damping: 0.01, mass_ratio: 0}}\n";
   const auto refused = [&](const std::string& command, const std::string& file,
                            const char* word = "is no regular file") {
     const Outcome o = place.run(command, "timeout -s KILL 20");

@@ -114,8 +114,7 @@ TEST(PresetOfOtherColumns, SaysWhatItLeavesOutForAColumnOfAnotherName) {
               HasSubstr("--input-unit 0.00113 --input-register 16 --voltage COLUMN --voltage-unit 0.1"));
   EXPECT_THAT(testing::text_of(place.folder() / "log.yaml"), ::testing::Not(HasSubstr("0.00113")));
   const auto told = place.run(
-      "check log.csv --preset dynamixel --input effort --input-unit 0.00113 --input-register 16 --voltage "
-      "volts "
+      "check log.csv --preset dynamixel --input effort --input-unit 0.00113 --input-register 16 --voltage volts "
       "--voltage-unit V");
   EXPECT_EQ(told.err, "");
   EXPECT_THAT(place.run("check log.csv --preset dynamixel --input effort --position volts").err,

@@ -23,8 +23,7 @@ const fs::path kSource = GAPSCOPE_SOURCE_DIR;
 const std::string kSchemas = (kSource / "docs/schemas").string();
 
 const std::string kDrive =
-    "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 5, noise: 1.0e-5, plant: "
-    "independent, "
+    "name: drive\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 5, noise: 1.0e-5, plant: independent, "
     "excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nfit: {starts: 1}\nmodel: " +
     testing::kPaperModel;
 

@@ -120,11 +120,9 @@ TEST_F(Stream, ANumberThatNoDriveHasIsRefusedAfterTheSummary) {
 
 TEST_F(Stream, EventsAreThereAtOnceAndCtrlCEndsWithTheSummary) {
   shell(
-      "rm -f told.jsonl pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & "
-      "producer=$!; " GAPSCOPE_EXECUTABLE
+      "rm -f told.jsonl pipe; mkfifo pipe; (cat r.csv; exec sleep 60) >pipe & producer=$!; " GAPSCOPE_EXECUTABLE
       " detect --stream <pipe >told.jsonl 2>err & detector=$!; "
-      "for i in $(seq 300); do grep -q event told.jsonl 2>/dev/null && break; sleep 0.1; done; cp told.jsonl "
-      "before; "
+      "for i in $(seq 300); do grep -q event told.jsonl 2>/dev/null && break; sleep 0.1; done; cp told.jsonl before; "
       "kill -INT $detector; wait $detector; echo $? >status; kill $producer");
   EXPECT_THAT(text("before"), HasSubstr("\"kind\":\"event\""));
   EXPECT_EQ(json_lines(text("told.jsonl")).back()["kind"], "summary");

@@ -69,9 +69,10 @@ TEST(ToldCommands, ATerminalRepeatsTheOptionsThatWereGiven) {
   place.file("c.yaml", kRigWithFriction);
   const auto run = place.run("run c.yaml --set simulation.seed=4 --set 'encoder={bits: 17}' -o 'my rig'");
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out,
-              HasSubstr("`gapscope diagnose c.yaml --set 'simulation.seed=4' --set 'encoder={bits: 17}' "
-                        "-o 'my rig'`"));
+  EXPECT_THAT(
+      run.out,
+      HasSubstr(
+          "`gapscope diagnose c.yaml --set 'simulation.seed=4' --set 'encoder={bits: 17}' -o 'my rig'`"));
 }
 
 TEST(ToldCommands, NoStandardErrorIsToldOfADifferenceThatHasNone) {

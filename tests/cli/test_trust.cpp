@@ -70,9 +70,10 @@ TEST(Trust, AReadingOfAPositionInAnotherUnitThanDeclaredIsNotGood) {
   const auto asked = place.run("detect asked.yaml"), told = place.run("detect declared.yaml");
   ASSERT_EQ(asked.status, 0) << asked.err;
   EXPECT_THAT(asked.err, HasSubstr("warning: degrees.csv: unit of x1: x1 steps by 360/262144: degrees?"));
-  EXPECT_THAT(asked.out,
-              HasSubstr("if the recording is what it seems to be (x1 steps by 360/262144: degrees?). "
-                        "Trust: limited."));
+  EXPECT_THAT(
+      asked.out,
+      HasSubstr(
+          "if the recording is what it seems to be (x1 steps by 360/262144: degrees?). Trust: limited."));
   EXPECT_THAT(asked.out, HasSubstr("next        Mend the recording first: declare it"));
   EXPECT_THAT(told.out, HasSubstr("Trust: good."));
   EXPECT_THAT(told.err, Not(HasSubstr("degrees?")));

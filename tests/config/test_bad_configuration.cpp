@@ -93,8 +93,7 @@ const std::vector<BadConfig> kBadData = {
     {"file_twice", recorded("[a.csv, b.csv]", "[a.csv, ./train.csv]"),
      "c.yaml:4: recording.held_out[1] names ./train.csv"},
     {"simulated_of_another_number", with(kRecorded, "  resample", "  simulated: [s.csv, t.csv]\n  resample"),
-     "c.yaml:7: recording.simulated names 2 files, expected one for each of recording: file (1), and for "
-     "each "
+     "c.yaml:7: recording.simulated names 2 files, expected one for each of recording: file (1), and for each "
      "of held_out (2) behind them"},
     {"simulated_is_recorded", with(kRecorded, "  resample", "  simulated: ./train.csv\n  resample"),
      "c.yaml:7: recording.simulated names ./train.csv, which is named already"},
@@ -102,11 +101,9 @@ const std::vector<BadConfig> kBadData = {
     {"column_twice", recorded("input: u", "input: x1"),
      "c.yaml:5: recording.columns.position uses the column x1 twice"},
     {"temperature_as_input", recorded("input: u", "input: motor_temp"),
-     "c.yaml:5: recording.columns.input is 'motor_temp', a temperature by its name, expected the column of "
-     "a"},
+     "c.yaml:5: recording.columns.input is 'motor_temp', a temperature by its name, expected the column of a"},
     {"unknown_unit", with(kRecorded, "  resample", "  units: {position: degree}\n  resample"),
-     "c.yaml:7: recording.units.position is 'degree', expected rad, mrad, deg, arcmin, rev, arcsec, or a "
-     "number"},
+     "c.yaml:7: recording.units.position is 'degree', expected rad, mrad, deg, arcmin, rev, arcsec, or a number"},
     {"unit_of_a_slide", with(kRecorded, "  resample", "  units: {time: m}\n  resample"),
      "c.yaml:7: recording.units.time is 'm', expected s, ms"},
     {"unit_of_no_column", with(kRecorded, "  resample", "  units: {x1: deg}\n  resample"),
@@ -207,8 +204,7 @@ const std::vector<BadConfig> kBadModels = {
     {"effect", recorded("effects: []", "effects: [{stribeck_friction: {level_nm: 1}}]"),
      "c.yaml:23: model.effects[0].stribeck_friction has no stribeck_speed_rad_s, expected a number in rad/s"},
     {"effect_unknown", recorded("effects: []", "effects: [{coging_torque: {amplitude_nm: 1}}]"),
-     "c.yaml:23: model.effects[0].coging_torque is no effect of the catalogue, expected one of `gapscope "
-     "effects`; "
+     "c.yaml:23: model.effects[0].coging_torque is no effect of the catalogue, expected one of `gapscope effects`; "
      "the nearest is cogging_torque"},
     {"effect_key", recorded("effects: []", "effects: [{load_unbalance: {amplitude: 1}}]"),
      "c.yaml:23: unknown key 'amplitude' in model.effects[0].load_unbalance, expected amplitude_nm"},
@@ -217,8 +213,7 @@ const std::vector<BadConfig> kBadModels = {
     {"effect_form", recorded("effects: []", "effects: [stribeck_friction]"),
      "c.yaml:23: model.effects[0] is 'stribeck_friction'"},
     {"effect_alone_unknown", recorded("effects: []", "effects: [coulomb_friction]"),
-     "c.yaml:23: model.effects[0] is no effect of the catalogue, expected one of `gapscope effects`; the "
-     "nearest "
+     "c.yaml:23: model.effects[0] is no effect of the catalogue, expected one of `gapscope effects`; the nearest "
      "is motor_coulomb_friction"},
     {"excluded", kRecorded + "diagnosis: {exclude: [load_unbalance, coging_torque]}\n",
      "c.yaml:25: diagnosis.exclude[1] is no effect of the catalogue, expected one of `gapscope effects`; the "
@@ -229,8 +224,7 @@ const std::vector<BadConfig> kBadModels = {
     {"bound_keys", recorded("auto", "{from_model: {input_limit: 1}}"),
      "c.yaml:24: detector.bound.from_model has no load_force_bound"},
     {"bound_without_model",
-     "name: a\nrecording: {file: a.csv}\ndetector: {bound: {from_model: {input_limit: 1, load_force_bound: "
-     "0}}}\n",
+     "name: a\nrecording: {file: a.csv}\ndetector: {bound: {from_model: {input_limit: 1, load_force_bound: 0}}}\n",
      "c.yaml:3: detector.bound is from_model but motor_inertia is not known"},
 };
 

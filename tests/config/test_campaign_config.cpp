@@ -109,8 +109,7 @@ TEST(CampaignConfig, APathLeadsIntoListsAndReplacesWholeParts) {
   const CampaignConfig c = Campaign(
                                "axes:\n"
                                "  simulation.excitation: [{sine: {amplitude: 0.5, frequency: 2}}, {triangle: "
-                               "{amplitude: 0.4, frequency: "
-                               "1}}]\n"
+                               "{amplitude: 0.4, frequency: 1}}]\n"
                                "  model.effects: [[], [{motor_coulomb_friction: {level_nm: 0.01}}]]\n")
                                .load();
   EXPECT_EQ(c.axes[0].values[1].yaml, "{triangle: {amplitude: 0.4, frequency: 1}}");
@@ -238,8 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
             "endless_axis",
             "sampling: {latin_hypercube: {samples: 4}}\naxes:\n  simulation.rate: {range: [1000, 2000], "
             "count: 1000000000000}\n",
-            "c.yaml:4: simulation.rate brings the values of all axes to 1000000000000, expected at most "
-            "10000000"},
+            "c.yaml:4: simulation.rate brings the values of all axes to 1000000000000, expected at most 10000000"},
         BadCampaign{"no_samples",
                     "axes:\n  simulation.rate: [1000]\nsampling: {latin_hypercube: {seed: 1}}\n",
                     "has no samples"},

@@ -54,8 +54,7 @@ TEST(Controller, ComesBackFromTheResolvedText) {
 
 TEST(Controller, MayHaveHadAnotherGainInOneRecording) {
   const std::string text =
-      "recording:\n  file: [a.csv, {name: b.csv, gain_times: 0.25}]\n  held_out: {name: c.csv, gain_times: "
-      "4}\n"
+      "recording:\n  file: [a.csv, {name: b.csv, gain_times: 0.25}]\n  held_out: {name: c.csv, gain_times: 4}\n"
       "  columns: {target: goal}\ncontroller: {position: {gain: 1.15}}\n";
   const Configuration c = parse_configuration(text, "c.yaml");
   const RecordingConfig& r = *c.recording;

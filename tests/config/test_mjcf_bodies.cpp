@@ -124,8 +124,7 @@ class Included : public ::testing::Test {
   void SetUp() override {
     std::filesystem::create_directories(main_.folder() / "parts");
     put("parts/robot.xml",
-        "<mujoco><include file=\"parts/defaults.xml\"/>\n<worldbody><body><inertial pos=\"0 0 -0.1\" "
-        "mass=\"1\" "
+        "<mujoco><include file=\"parts/defaults.xml\"/>\n<worldbody><body><inertial pos=\"0 0 -0.1\" mass=\"1\" "
         "diaginertia=\"1e-3 1e-3 1e-3\"/><joint name=\"a\" axis=\"0 1 0\"/></body></worldbody></mujoco>");
     put("parts/defaults.xml", "<mujoco><default><joint damping=\"0.2\"/></default></mujoco>");
     put("motor.xml", "<mujocoinclude><actuator><motor joint=\"a\" gear=\"3\"/></actuator></mujocoinclude>");

@@ -177,20 +177,17 @@ TEST(Setting, TakesTheModelOfAnotherConfiguration) {
       << "of an effect that the own model does not have the numbers are estimated";
   const std::string hung = with(kRecorded, "effects: []", "effects: []\nanchor: {mass: 0.5, arm: 0.1}");
   const testing::TemporaryFile fitted(
-      "model: {parameters: {motor_inertia: 0.01, torque_constant: 1, mass_ratio: 0, motor_damping: 0}, "
-      "effects: "
+      "model: {parameters: {motor_inertia: 0.01, torque_constant: 1, mass_ratio: 0, motor_damping: 0}, effects: "
       "[{load_unbalance: {amplitude_nm: 0.49, phase_rad: 0}}]}",
       "c.yaml");
   EXPECT_FALSE(parse_configuration(hung, "c.yaml", model_from(fitted.path())).anchor)
       << "the fitted model has what is known of the drive in it";
   const testing::TemporaryFile found(
       "model: {parameters: {motor_inertia: 0.01, torque_constant: 0.9, mass_ratio: 0, motor_damping: 0.2}, "
-      "effects: [{load_unbalance: {amplitude_nm: 0.49, phase_rad: 0}}, {motor_coulomb_friction: {level_nm: "
-      "0.02}}]}",
+      "effects: [{load_unbalance: {amplitude_nm: 0.49, phase_rad: 0}}, {motor_coulomb_friction: {level_nm: 0.02}}]}",
       "c.yaml");
   const std::string estimating =
-      "name: c\nrecording: {file: a.csv}\nmodel: {parameters: {motor_damping: {estimate: true}, mass_ratio: "
-      "0}}\n"
+      "name: c\nrecording: {file: a.csv}\nmodel: {parameters: {motor_damping: {estimate: true}, mass_ratio: 0}}\n"
       "anchor: {mass: 0.5, arm: 0.1}\n";
   const ReferenceModel going_on =
       parse_configuration(estimating, "c.yaml", model_from(found.path())).reference_model();

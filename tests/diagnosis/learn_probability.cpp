@@ -65,8 +65,7 @@ int main(int argc, char** argv) {
   const BlindCalibration c = blind::calibrate(read(argv[1]), read(argv[2]));
   fmt::print("weights {:.3f} from {} decisions\n", fmt::join(c.weights, ", "), c.learnt_on);
   fmt::print(
-      "on {} decisions: calibration error {:.3f}, Brier score {:.3f}; with the built-in weights {:.3f}, "
-      "{:.3f}\n",
+      "on {} decisions: calibration error {:.3f}, Brier score {:.3f}; with the built-in weights {:.3f}, {:.3f}\n",
       c.judged_on, c.error, c.brier, c.error_before, c.brier_before);
   for (const ReliabilityBin& b : c.bins)
     if (b.cases > 0) fmt::print("  predicted {:.2f}, right {} of {}\n", b.predicted, b.right, b.cases);

@@ -164,8 +164,7 @@ int vary_effort(int argc, char** argv) {
                       count = std::strtoull(argv[3], nullptr, 10);
   const int threads = argc > 4 ? std::atoi(argv[4]) : 0;
   fmt::print(
-      "| effort | first or in the group | named | wrong name | wrong with the truth taken out | processor "
-      "time "
+      "| effort | first or in the group | named | wrong name | wrong with the truth taken out | processor time "
       "[s] |\n|---|---|---|---|---|---|\n");
   const auto run = [&](const std::string& name, const SearchEffort& effort) {
     print_effort(name, effort, first, count, threads);

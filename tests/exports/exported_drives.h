@@ -42,8 +42,7 @@ inline Configuration rig_configuration(const std::string& numbers, const std::st
 }
 
 inline const std::string kTwoBodies =
-    ", mass_ratio: 1.5, gap: 0.019, load_damping: 0.035, load_coulomb_friction: 0.03, contact_stiffness: "
-    "200, "
+    ", mass_ratio: 1.5, gap: 0.019, load_damping: 0.035, load_coulomb_friction: 0.03, contact_stiffness: 200, "
     "contact_damping: 0.05";
 
 }  // namespace gapscope::testing

@@ -66,10 +66,8 @@ double rms_between(const Recording& a, const Recording& b) {
 /// What the author of the MJCF believed: no friction of the motor, and other numbers.
 const std::string kBelieved =
     "encoder: {bits: 18}\nmodel:\n  parameters: {torque_constant: 0.172, motor_inertia: 8.78e-4, "
-    "contact_stiffness: 200, contact_damping: 0.05, motor_damping: {value: 0.07, estimate: true}, "
-    "mass_ratio: "
-    "{value: 1.1, estimate: true}, gap: {value: 0.017, estimate: true}, load_damping: {value: 0.04, "
-    "estimate: "
+    "contact_stiffness: 200, contact_damping: 0.05, motor_damping: {value: 0.07, estimate: true}, mass_ratio: "
+    "{value: 1.1, estimate: true}, gap: {value: 0.017, estimate: true}, load_damping: {value: 0.04, estimate: "
     "true}, load_coulomb_friction: {value: 0.055, estimate: true}}\n";
 
 /// Of the effects the one that is missing and what is most easily taken for it.
@@ -85,8 +83,7 @@ DiagnosisOptions among_a_few(const Configuration& c) {
 
 Configuration believed() {
   return parse_configuration(
-      "name: believed\nsimulation: {rate: 500, duration: 2, excitation: {sine: {amplitude: 0.6, frequency: "
-      "1}}}\n" +
+      "name: believed\nsimulation: {rate: 500, duration: 2, excitation: {sine: {amplitude: 0.6, frequency: 1}}}\n" +
           kBelieved,
       "believed.yaml");
 }

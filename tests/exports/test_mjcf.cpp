@@ -276,8 +276,9 @@ TEST(Mjcf, TellsTheArmatureBesideTheBodyThatAFileOfTheUsersOwnHas) {
   own.model = "arm.xml", own.joint = "shoulder", own.body_inertia = 0.0005, own.unbalance = 0.03;
   const auto told = [&] { return export_drive(c, ExportFormat::kMjcf, own).certificate.own_file; };
   EXPECT_THAT(told(), HasSubstr("armature=\"0.000378\""));
-  EXPECT_THAT(told(), HasSubstr("(0.000878) less the 0.0005 about the axis that the body of shoulder has in "
-                                "arm.xml"));
+  EXPECT_THAT(
+      told(),
+      HasSubstr("(0.000878) less the 0.0005 about the axis that the body of shoulder has in arm.xml"));
   EXPECT_THAT(told(), HasSubstr("from the axis, times 1.25 "));
   own.body_inertia = 0.001;
   EXPECT_THAT(told(), HasSubstr("armature=\"0\""));

@@ -149,8 +149,8 @@ TEST(OwnFile, TurnsWhatHangsWhereItsMassIsNotTold) {
   JointNumbers own;
   own.model = "arm.xml", own.joint = "elbow", own.unbalance = 0.04, own.unbalance_phase = -1.0;
   const auto told = [&] { return export_drive(c, ExportFormat::kMjcf, own).certificate.own_file; };
-  EXPECT_THAT(told(), HasSubstr("by 2 rad about its axis, and the mass, or its distance from the axis, times "
-                                "1.25 "));
+  EXPECT_THAT(told(),
+              HasSubstr("by 2 rad about its axis, and the mass, or its distance from the axis, times 1.25 "));
   own.unbalance = kNaN;
   EXPECT_THAT(
       told(),
@@ -174,8 +174,8 @@ TEST(OwnFile, GivesAConstantTorqueFilterAndRangeOfTheActuator) {
       "{torque_saturation: {knee: 0.5}}]\n");
   const OwnMjcf own;
   const std::string told = told_for(own, c);
-  EXPECT_THAT(told, HasSubstr("<general joint=\"elbow\" gainprm=\"0\" biastype=\"affine\" biasprm=\"-0.013 0 "
-                              "0\"/>"));
+  EXPECT_THAT(
+      told, HasSubstr("<general joint=\"elbow\" gainprm=\"0\" biastype=\"affine\" biasprm=\"-0.013 0 0\"/>"));
   const OwnMjcf mended = pasted(own, told);
   const JointNumbers n = mended.read();
   EXPECT_DOUBLE_EQ(n.constant_torque, -0.013);
@@ -215,14 +215,13 @@ TEST(OwnFile, OfADriveWithAGapHasBothJointsAndTheTendon) {
 /// The file of one joint with what is told put into it is the exported drive.
 TEST(OwnFile, GivesAFileOfOneJointTheMotorThatAGapNeeds) {
   const OwnMjcf own{.body = "pos=\"0 0 0.5\""};
-  const Configuration c = rig_configuration(kTwoBodies,
-                                            "  effects: [{motor_coulomb_friction: {level_nm: "
-                                            "0.01}}]\n");
+  const Configuration c =
+      rig_configuration(kTwoBodies, "  effects: [{motor_coulomb_friction: {level_nm: 0.01}}]\n");
   const std::string told = told_for(own, c);
-  EXPECT_THAT(told,
-              HasSubstr("has one joint, elbow, which is taken for the load's; the motor needs a body and a "
-                        "joint of its own, beside the body of elbow: <body name=\"elbow_motor\" pos=\"0 0 "
-                        "0.5\">"));
+  EXPECT_THAT(
+      told,
+      HasSubstr("has one joint, elbow, which is taken for the load's; the motor needs a body and a "
+                "joint of its own, beside the body of elbow: <body name=\"elbow_motor\" pos=\"0 0 0.5\">"));
   EXPECT_THAT(told, HasSubstr("frictionloss=\"0.03\""));
   EXPECT_THAT(told, HasSubstr("actuator, on the motor from now on: joint=\"elbow_motor\""));
   OwnMjcf mended = own;

@@ -112,8 +112,7 @@ TEST_P(EveryVersion, RefusesWhatIsNoVectorOfRealNumbersByName) {
     return what;
   };
   EXPECT_THAT(tried([](MatWriter&) {}),
-              StartsWith("r.mat: there is no variable 'x1', expected it beside those that are "
-                         "there: "));
+              StartsWith("r.mat: there is no variable 'x1', expected it beside those that are there: "));
   EXPECT_THAT(tried([&](MatWriter& w) {
                 w.array("x1", MAT_C_DOUBLE, MAT_T_DOUBLE, {10, 20}, re.data());
               }),

@@ -92,8 +92,7 @@ void print(const Validation& all) {
   const auto count = static_cast<int>(all.left.size());
   const Interval share = wilson(close, count);
   fmt::print(
-      "x2 within 1.3 of its encoder's floor {} of {} = {:.1f} % [{:.1f}, {:.1f}], median {:.3f}, 95 % "
-      "{:.2f}\n",
+      "x2 within 1.3 of its encoder's floor {} of {} = {:.1f} % [{:.1f}, {:.1f}], median {:.3f}, 95 % {:.2f}\n",
       close, count, 100.0 * close / count, 100.0 * share.low, 100.0 * share.high, median(all.left),
       quantile(all.left, 0.95));
   if (all.differences.empty()) return;

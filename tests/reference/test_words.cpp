@@ -57,10 +57,10 @@ TEST(Words, ArePutTogetherOnBothAxes) {
 }
 
 TEST(Words, SayWhatIsDeterminedOfParametersThatChangeTogether) {
-  EXPECT_EQ(words::change_together({"motor_inertia", "torque_constant"}, {1.0, 1.0}).text(),
-            "motor_inertia and torque_constant change together without a trace: only their ratio is "
-            "determined. Fix "
-            "one of them; what would separate them is a known torque or a known inertia.");
+  EXPECT_EQ(
+      words::change_together({"motor_inertia", "torque_constant"}, {1.0, 1.0}).text(),
+      "motor_inertia and torque_constant change together without a trace: only their ratio is determined. Fix "
+      "one of them; what would separate them is a known torque or a known inertia.");
 }
 
 TEST(Words, NameTheExcitationForEveryParameter) {

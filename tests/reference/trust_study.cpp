@@ -52,8 +52,7 @@ void print(const std::string& name, double truth, const FitSummary& f) {
   fmt::print(
       "{} | {} why {} | gap {:.4f} -> {:.4f} std {:.2g} {}{} | innov/fl {:.3f} rmse/fl {:.3f} at {:.3g} fit% "
       "{:.3f} coast "
-      "{:.4f} closed/with {:.4f} {:.3f} | lag1 {:.3f} white {:.2f}/{:.1f} in {:.2f}/{:.1f} | conv {} bounds "
-      "{} | {}\n",
+      "{:.4f} closed/with {:.4f} {:.3f} | lag1 {:.3f} white {:.2f}/{:.1f} in {:.2f}/{:.1f} | conv {} bounds {} | {}\n",
       name, to_string(f.trust), f.why.code(), truth, g, gap ? gap->std : kNaN, tells ? "" : "unid ",
       covers ? "covers" : "misses", f.innovation_rmse / f.floor, f.rmse / f.floor, f.objective_hz,
       f.fit_percent, f.innovation_rmse / f.coasting_rmse, f.without_gap_ratio, f.floor,

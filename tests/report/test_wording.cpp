@@ -54,8 +54,7 @@ TEST(Headline, TellsEveryVerdict) {
   EXPECT_EQ(
       estimates_text(run),
       "Without a model: backlash gap 18.91 mrad (95 %: 18.62 to 19.21). Fitted model: 18.828 mrad "
-      "(95 %: 18.799 to 18.858). They agree: the difference is 0.0846 mrad, its standard deviation 0.151 "
-      "mrad.");
+      "(95 %: 18.799 to 18.858). They agree: the difference is 0.0846 mrad, its standard deviation 0.151 mrad.");
   run.comparison->agree = false;
   EXPECT_NE(headline(run).find("They disagree"), std::string::npos);
   run.comparison->agree.reset();

@@ -76,8 +76,7 @@ std::string simulator_yaml(const SimulatedPair& p) {
   return fmt::format(
       "name: theirs\nencoder: {{bits: 20}}\n"
       "simulation: {{rate: 1000, duration: 2, excitation: {{sine: {{amplitude: 0.6, frequency: 1}}}}}}\n"
-      "model:\n  parameters: {{motor_inertia: {}, torque_constant: {}, motor_damping: {}, {}}}\n  effects: "
-      "[{}]\n",
+      "model:\n  parameters: {{motor_inertia: {}, torque_constant: {}, motor_damping: {}, {}}}\n  effects: [{}]\n",
       p.has_load ? kInertia : knob(p, "motor_inertia", false), kTorqueConstant,
       knob(p, "motor_damping", false), load, effects);
 }

@@ -160,8 +160,7 @@ int run(std::uint64_t first, std::uint64_t pairs, bool same, bool few) {
     print(seed, p, c);
     fmt::print(
         "so far: {} pairs; {} rows above two floors: {} right, {} with another amount or place, {} missed; "
-        "{} rows wrong; {} with the truth behind \"or\"; {} of the solver, named so; {} pairs without a "
-        "row\n",
+        "{} rows wrong; {} with the truth behind \"or\"; {} of the solver, named so; {} pairs without a row\n",
         counts.pairs, counts.drawn, counts.right, counts.elsewhere, counts.missed, counts.wrong,
         counts.grouped, counts.artefacts, counts.silent);
   }

@@ -19,8 +19,7 @@ const Progress kQuiet = [](const std::string&) {};
 
 std::string simulated_with(const char* encoder) {
   return std::string("encoder: ") + encoder +
-         "\nsimulation: {rate: 1000, duration: 2, excitation: {sine: {amplitude: 0.58, frequency: 1}}, "
-         "noise: "
+         "\nsimulation: {rate: 1000, duration: 2, excitation: {sine: {amplitude: 0.58, frequency: 1}}, noise: "
          "1.0e-5}\nmodel: " +
          testing::kPaperModel;
 }

@@ -22,8 +22,7 @@ const Progress kSilentRun = [](const std::string&) {};
 /// The paper's rig, made by the plant that shares no code with the fit.
 Recording rows_of_rig() {
   const std::string yaml =
-      "encoder: {bits: 18}\nsimulation: {plant: independent, rate: 1000, duration: 4, excitation: {sine: "
-      "{amplitude: "
+      "encoder: {bits: 18}\nsimulation: {plant: independent, rate: 1000, duration: 4, excitation: {sine: {amplitude: "
       "0.58, frequency: 1}}}\nmodel: " +
       std::string(testing::kPaperModel);
   return recorded(simulated_recording(parse_configuration(yaml, "rig.yaml")));

@@ -10,9 +10,9 @@ const Progress kUntold = [](const std::string&) {};
 /// The paper's rig in a motion of that amplitude, its model with that gap.
 Configuration rig_moved(const char* amplitude, const char* gap) {
   return parse_configuration(
-      std::string("encoder: {bits: 20}\n"
-                  "simulation: {rate: 1000, duration: 5, noise: 2.0e-6, excitation: {sine: {frequency: 1, "
-                  "amplitude: ") +
+      std::string(
+          "encoder: {bits: 20}\n"
+          "simulation: {rate: 1000, duration: 5, noise: 2.0e-6, excitation: {sine: {frequency: 1, amplitude: ") +
           amplitude +
           "}},\n"
           "  model: {parameters: {motor_damping: 0.062, mass_ratio: 1, gap: 0.019}}}\n"

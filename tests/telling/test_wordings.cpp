@@ -121,8 +121,7 @@ std::optional<Fact> example_of(const std::string& code, const std::string& key) 
       {"simulator.not_mended", number("error", 0.269, "rad")},
       {"helps.simulator", number("error", 0.269, "rad")},
       {"simulator.differs",
-       names("rows", std::vector<std::string>{"it has no cogging torque, where the drive "
-                                              "has 2 N",
+       names("rows", std::vector<std::string>{"it has no cogging torque, where the drive has 2 N",
                                               "its mass is 2 kg where the drive's is 3 kg"})},
       {"next.mend_simulator", names("rows", std::vector<std::string>{"cogging torque", "motor inertia"})},
       {"tolerance.torque", per_cent("limit", 5.0)},

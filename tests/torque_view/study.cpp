@@ -101,15 +101,13 @@ void print_rungs(const Budget& b, std::size_t ranks) {
 
 void print_shares(const Budget& b) {
   fmt::print(
-      "law                        shape       alone                      last                 s_pred "
-      "absorbed least\n");
+      "law                        shape       alone                      last                 s_pred absorbed least\n");
   for (const Share& s : b.shares)
     fmt::print("{:26} {:<10.4g} {} {} {:.2f} {:.2f} {:.3f} x:{}\n", s.law->name, s.shape, text(s.alone),
                text(s.last), s.seen.predicted, s.seen.absorbed, s.seen.smallest, text(s.theta));
   for (const std::string& name : b.dropped) fmt::print("dropped: {}\n", name);
   fmt::print(
-      "left {:.4g} ({:.2f} %); encoder {:.3g}, repeatability {:.3g}, joint {:.4g}, each {:.4g}, disagreement "
-      "{:.3g}\n",
+      "left {:.4g} ({:.2f} %); encoder {:.3g}, repeatability {:.3g}, joint {:.4g}, each {:.4g}, disagreement {:.3g}\n",
       b.rms, 100.0 * b.rms / b.input_rms, b.floors.encoder, b.floors.repeatability, b.floors.joint,
       b.floors.each, b.floors.disagreement());
 }

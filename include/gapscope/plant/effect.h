@@ -74,8 +74,8 @@ enum class StartSearch {
 
 /// What orders the torque that an effect leaves where it is not modelled.
 enum class ResidualPattern { kAngle, kDirection, kSpeed, kInput, kTime, kInputSteps, kCounts, kMode };
-const char* to_string(
-    ResidualPattern pattern);  ///< "angle", "direction", ..., "input_steps", "counts", "mode"
+/// "angle", "direction", ..., "input_steps", "counts", "mode"
+const char* to_string(ResidualPattern pattern);
 
 enum class ContactPhase { kGap, kEngagement, kImpact };
 const char* to_string(ContactPhase phase);  ///< "gap", "engagement", "impact"

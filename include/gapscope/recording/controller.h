@@ -171,8 +171,8 @@ struct CommandRows {
   std::vector<double> position;  ///< [rad]
   std::vector<double> supply;    ///< that multiplies what the controller asks for [V]; 1 without
   double gain_times = 1.0;       ///< the controller's leading number then, over the declared one [-]
-  std::vector<Loss> bridged =
-      {};  ///< lost rows over which the input is drawn to the next one; others hold it
+  /// Lost rows over which the input is drawn to the next one; others hold it.
+  std::vector<Loss> bridged = {};
   double off_from = kInfinity, off_to = kInfinity;  ///< times between which it was switched off [s]
 
   bool is_off(double time) const { return time >= off_from && time < off_to; }

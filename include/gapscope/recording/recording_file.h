@@ -83,8 +83,8 @@ struct ReadOptions {
   std::optional<std::pair<double, double>> off;  ///< times between which the drive was switched off [s]
   std::optional<double> voltage;  ///< of the supply in this file, which the duty is a part of [V]
   Unwrap unwrap = Unwrap::kAuto;
-  int input_rows =
-      0;  ///< by which the recorded input is moved: with -1 that of the next row acts from this one
+  /// By which the recorded input is moved: with -1 that of the next row acts from this one.
+  int input_rows = 0;
 };
 
 /// No input is moved by more rows than this.

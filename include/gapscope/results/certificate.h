@@ -41,8 +41,8 @@ struct StepLimits {
   /// the finest listed step.
   bool against_itself = false;
   double largest = kNaN;  ///< at which the error stays below a tenth of the travel [s]; NaN: not looked for
-  double within_encoder =
-      kNaN;  ///< the largest listed one at which, and below, it is within the encoder's floor [s]; NaN: none
+  /// The largest listed one at which, and below, it is within the encoder's floor [s]; NaN: none.
+  double within_encoder = kNaN;
 };
 
 /// What became of a drive in a target's format, and how far the target then is from the model.

@@ -15,8 +15,8 @@ enum class DetectorMethod {
   kLiteral,     ///< one e_x with a bound that is given: S1 to S6 as printed, nothing else
 };
 
-const char* to_string(
-    DetectorMethod method);  ///< the YAML's words: "auto", "impact", "lost_motion", "paper", "literal"
+/// The YAML's words: "auto", "impact", "lost_motion", "paper", "literal"
+const char* to_string(DetectorMethod method);
 
 struct DetectorOptions {
   DetectorMethod method = DetectorMethod::kAuto;

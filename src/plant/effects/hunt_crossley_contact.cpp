@@ -12,8 +12,7 @@ namespace {
 struct HuntCrossleyContact {
   static constexpr EffectSide side = EffectSide::kContact;
   static constexpr const char* law =
-      "contact torque k p q^0.5 + c p' (0.05 + 0.95 q^1.5) in place of k p + c p', q = |p| / length, p the "
-      "penetration";
+      "contact torque k p q^0.5 + c p' (0.05 + 0.95 q^1.5) in place of k p + c p', q = |p| / length, p the penetration";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"length_rad", "rad", 4.0, 0.03, 50.0, Scale::kPenetration, true}};

@@ -12,8 +12,7 @@ namespace {
 struct StribeckFriction {
   static constexpr EffectSide side = EffectSide::kMotor;
   static constexpr const char* law =
-      "motor torque -Fc1 (1 + r exp(-|w1/vs|^d)) sign(w1), set-valued at rest; r < 0: less friction at low "
-      "speed";
+      "motor torque -Fc1 (1 + r exp(-|w1/vs|^d)) sign(w1), set-valued at rest; r < 0: less friction at low speed";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque},
