@@ -115,7 +115,8 @@ TEST(TurnTime, AMotorThatItsOwnFrictionHoldsInTheGapIsNotAtItsLoad) {
   const TestRecording recording = record(drive, sine(0.0744, 0.735), encoder);
   const MotorTrace trace = recording.trace();
   const GapEstimate g = detect_gap({&trace, 1});
-  EXPECT_NE(g.verdict, GapVerdict::kBacklash) << "5.9 mrad without the rule";
+  EXPECT_EQ(g.verdict, GapVerdict::kInconclusive) << "5.9 mrad without the rule";
+  EXPECT_EQ(g.reason.code(), "few_passages");
 }
 
 }  // namespace
