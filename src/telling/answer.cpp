@@ -319,11 +319,16 @@ Told steps(const Findings& f) {
       f.reference->innovation_rmse >= f.reference->coasting_rmse)
     next.push_back({"next.sign"});
   if (f.agree && !*f.agree) next.push_back({"next.once_more"});
+  // Where the lost motion is read, what it is made of is the question; else a model answers before another
+  // recording.
+  const Statement reading = f.model_free != nullptr ? step_without_model(*f.model_free) : Statement();
+  const bool loop = f.model_free != nullptr && f.model_free->lost_motion.read();
+  if (loop) next.push_back(reading);
   if (f.reference != nullptr && !none_by_both(f)) {
     const std::string step = remedy(*f.reference);
     next.push_back({step == "next.without_gap" && may_have_gap(f) ? "next.diagnose.lacks" : step});
   }
-  if (f.model_free != nullptr) next.push_back(step_without_model(*f.model_free));
+  if (!loop) next.push_back(reading);
   std::erase_if(next, [](const Statement& s) { return s.code.empty(); });
   next.resize(std::min(next.size(), kMostSteps));
   return next;

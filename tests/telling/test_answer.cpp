@@ -224,6 +224,9 @@ TEST(Answer, TellsTheLostMotionThatWasMeasuredWhateverItMeans) {
   EXPECT_EQ(a.from, AnswerSource::kNone);
   EXPECT_TOLD(a.sentence);
   EXPECT_THAT(a.next_codes, ElementsAre("next.smaller_ramps"));
+  FitSummary rejected = fitted(FitTrust::kRejected, 0.04, 5e-4);
+  rejected.why = Remark("leaves_unexplained", "It misses much.");
+  EXPECT_THAT(of(&open, &rejected).next_codes, ElementsAre("next.smaller_ramps", "next.diagnose.lacks"));
   open.lost_motion.levels.pop_back();
   EXPECT_THAT(of(&open, nullptr).next_codes, ElementsAre("next.two_levels"));
   EXPECT_TRUE(answer_of({&open, nullptr, {}, {}, 0.03}).says("gap.beyond_travel")) << "of 30 mrad of travel";
