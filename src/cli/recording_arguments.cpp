@@ -170,10 +170,6 @@ std::string RecordingArguments::told_by_names() const {
 }
 
 RecordingConfig RecordingArguments::configuration() const {
-  if (units.position == "counts" && (bits == 0 || translation))
-    throw ConfigError(
-        "gapscope: --position-unit is counts, expected --bits of a rotary encoder beside it, or the size of "
-        "one count as a number");
   RecordingConfig c;
   c.files = {{file, file, 0}};
   c.registers = registers;
@@ -204,13 +200,20 @@ RecordingConfig RecordingArguments::configuration() const {
   require_three_columns(o.columns);
   c.units = units;
   for (const NamedUnit& u : left_to_names(c.units, o.columns, coordinates())) *u.declared = unit_by_name(u);
+  if (c.units.position == kCounts && (bits == 0 || translation))
+    throw ConfigError(
+        fmt::format("gapscope: {} {}, expected --bits of a rotary encoder beside it, or the size of one "
+                    "count as a number "
+                    "(--position-unit)",
+                    units.position.empty() ? shown(o.columns.position) + " is in" : "--position-unit is",
+                    c.units.position));
   o.columns.scales = declared_scales(
       c.units, c.registers, gear, encoder(), coordinates(), [&](const std::string& key, auto& expected) {
-        const std::string& unit = key == "time"      ? units.time
-                                  : key == "input"   ? units.input
-                                  : key == "voltage" ? units.voltage
-                                  : key == "speed"   ? units.speed
-                                                     : units.position;
+        const std::string& unit = key == "time"      ? c.units.time
+                                  : key == "input"   ? c.units.input
+                                  : key == "voltage" ? c.units.voltage
+                                  : key == "speed"   ? c.units.speed
+                                                     : c.units.position;
         throw ConfigError(
             fmt::format("gapscope: --{}-unit {} is not known, expected {}", key, shown(unit), expected));
       });
@@ -244,7 +247,7 @@ void add_unit_options(CommandLine& command, RecordingArguments& a) {
   const auto unit = [&](const char* name, std::string& declared, const char* what) {
     command.add_option(name, declared, what).value("UNIT");
   };
-  unit("--time-unit", a.units.time, "of the time: s, ms, us, ns (default: s)");
+  unit("--time-unit", a.units.time, "of the time: s, ms, us, ns, min (default: s)");
   unit("--input-unit", a.units.input, "of the input: N m, mN m, A, mA, V, %, ... (default: as it is)");
   unit("--position-unit", a.units.position,
        "of the position: rad, mrad, deg, arcmin, arcsec, rev, counts; m, mm, um, nm (default: rad, m)");

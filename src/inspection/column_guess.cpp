@@ -112,8 +112,12 @@ bool are_even(const std::vector<double>& x) {
                                     [=](double step) { return std::abs(step - usual) < kEven * usual; });
 }
 
-/// Where no name says which column has the time: the last one without another meaning that rises evenly, as
-/// a number of the row stands before it.
+/// Whether numbers count the rows, in no unit of time.
+bool count_rows(const std::vector<double>& x) {
+  return std::adjacent_find(x.begin(), x.end(), [](double a, double b) { return b - a != 1.0; }) == x.end();
+}
+
+/// Where no name says which column has the time: the last one without another meaning that rises evenly.
 std::string even_column(const Seen& seen) {
   std::string even;
   for (std::size_t i = 0; i < seen.form.names.size(); ++i) {
@@ -123,7 +127,9 @@ std::string even_column(const Seen& seen) {
         is(ColumnRole::kTarget))
       continue;
     const auto x = numbers_of(seen.form, static_cast<int>(i));
-    if (x.size() > 2 && x.size() == seen.form.rows.size() && are_even(x)) even = name;
+    const bool of_time = !unit_in_name(name, Quantity::kTime).empty() || !seen.form.units.empty();
+    if (x.size() > 2 && x.size() == seen.form.rows.size() && are_even(x) && (of_time || !count_rows(x)))
+      even = name;
   }
   return even;
 }

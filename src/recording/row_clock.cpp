@@ -33,7 +33,7 @@ std::optional<double> taken(std::string_view& text) {
 bool RowClock::reads(std::string_view text) { return text.find(':') != text.npos || is_long_number(text); }
 
 /// Hours, minutes and, where they are there, seconds with a decimal point or comma, or milliseconds behind a
-/// third colon; "PM" behind them.
+/// third colon; "PM" behind them. Of two parts the last is in seconds where it has decimals ("01:02.500").
 std::optional<double> RowClock::of_day(std::string_view text) {
   std::size_t at = text.find(':');
   if (at == text.npos || at == 0) return {};
@@ -41,7 +41,9 @@ std::optional<double> RowClock::of_day(std::string_view text) {
   std::string clock(text.substr(at));
   std::replace(clock.begin(), clock.end(), ',', '.');
   std::string_view left = clock;
-  double seconds = 0.0, unit = 3600.0;
+  const std::size_t second = clock.find(':') + 1, decimals = clock.find('.');
+  const bool without_hours = clock.find(':', second) == clock.npos && decimals < clock.find(' ', second);
+  double seconds = 0.0, unit = without_hours ? 60.0 : 3600.0;
   for (int part = 0; part < 3; ++part, unit /= 60.0) {
     const auto value = taken(left);
     if (!value || (part > 0 && *value >= 61.0)) return {};

@@ -26,11 +26,9 @@ constexpr UnitScale kOne, kMilli{1.0, 1e3}, kMicro{1.0, 1e6}, kNano{1.0, 1e9}, k
 /// The first one is that of SI. Current, voltage and a duty serve both kinds of axes:
 /// torque_constant makes them one.
 const std::vector<Unit>& units(Quantity quantity) {
-  static const std::vector<Unit> time = {{"s", kOne, "s"},
-                                         {"ms", kMilli, "s"},
-                                         {"us", kMicro, "s"},
-                                         {"ns", kNano, "s"},
-                                         {"100ns", {1.0, 1e7}, "s"}};
+  static const std::vector<Unit> time = {{"s", kOne, "s"},           {"ms", kMilli, "s"},
+                                         {"us", kMicro, "s"},        {"ns", kNano, "s"},
+                                         {"100ns", {1.0, 1e7}, "s"}, {"min", {60.0, 1.0}, "s"}};
   static const std::vector<Unit> angle = {
       {"rad", kOne, "rad"},           {"mrad", kMilli, "rad"},
       {"deg", {kPi, 180.0}, "rad"},   {"arcmin", {kPi, 180.0 * 60.0}, "rad"},

@@ -51,6 +51,9 @@ INSTANTIATE_TEST_SUITE_P(
             "r.csv:1: no column is seen to be the position among 1 'date', 2 'time', 3 'FT_211', 4 'FV_211'"},
         Malformed{"no_time_and_no_rate", "u,x1\n" + lines([](int i) { return values(i).substr(1); }),
                   "--rate HZ"},
+        Malformed{"rows_that_are_counted",
+                  "sample,u,x1\n" + lines([](int i) { return std::to_string(i) + values(i); }),
+                  "expected its name or place: --time NAME, or --rate"},
         Malformed{"four_columns_without_names", lines([](int i) { return plain(i) + ",7"; }),
                   "--columns TIME,INPUT,POSITION"},
         Malformed{"a_clock_that_is_none", "time,u,x1\n" + lines([](int i) {

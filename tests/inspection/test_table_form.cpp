@@ -195,6 +195,15 @@ const std::vector<LogForm> kLogForms = {
     {"a_time_of_another_name",
      ",tick,u,x1\n" + lines([](int i) { return fmt::format("{},{}", i, 10000 * i) + values(i); }),
      {"time.rises", "unit.by_steps"}},
+    {"minutes_of_a_sheet",
+     "time,u,x1\n" + lines([](int i) {
+       const double t = 59.5 + kLogStep * i;
+       return fmt::format("{:02}:{:06.3f}", static_cast<int>(t / 60.0), std::fmod(t, 60.0)) + values(i);
+     }),
+     {"table.clock"}},
+    {"minutes",
+     "time_min,u,x1\n" + lines([](int i) { return fmt::format("{:.12f}", kLogStep * i / 60.0) + values(i); }),
+     {"time.rises"}},
     {"micros",
      "micros,torque,pos\n" + lines([](int i) { return std::to_string(10000 * i) + values(i); }),
      {"unit.by_steps"}},

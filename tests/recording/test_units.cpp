@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "gapscope/recording/recording_file.h"
+#include "recording/register_look.h"
 #include "support/reading.h"
 #include "support/temporary_file.h"
 
@@ -34,7 +37,7 @@ TEST(Units, EachIsWhatItsNameSays) {
   for (const char* none : {"mm", "degree", "", "0", "-1", "inf", "nan", "1 rad", "Deg", "1e99"})
     EXPECT_FALSE(unit_scale(Quantity::kAngle, none)) << none;
   EXPECT_THAT(known_units(Quantity::kTime),
-              HasSubstr("ms, us, ns, 100ns, or a number (s per recorded unit)"));
+              HasSubstr("ms, us, ns, 100ns, min, or a number (s per recorded unit)"));
 }
 
 TEST(Units, OfATorqueAreTakenAsTheyAreCommonlyWritten) {
@@ -75,6 +78,24 @@ TEST(Units, EveryColumnOfACsvIsBroughtToSi) {
   EXPECT_EQ(r.u[3], 4.0);
   EXPECT_DOUBLE_EQ(r.x1[0], std::numbers::pi / 3.0);
   EXPECT_EQ(r.x2[30], 1.0);
+}
+
+TEST(Units, ARegisterIsKnownByTheShorterWayOfItsNumbersHoweverFarTheySwing) {
+  for (const int bits : {8, 16}) {
+    const int all = 1 << bits, most = all / 2 - 1;
+    for (const double part : {0.02, 0.4, 0.8, 1.0}) {
+      std::vector<double> twos, offset;
+      for (int i = 0; i < 1000; ++i) {
+        const int value = static_cast<int>(std::lround(part * most * std::sin(0.05 * i)));
+        twos.push_back((value + all) % all), offset.push_back(value + all / 2);
+      }
+      EXPECT_EQ(seen_register(twos).bits, bits) << part;
+      EXPECT_EQ(seen_register(offset).is_one(), false) << part;
+    }
+  }
+  std::vector<double> relay;  // full and none, of a duty of 8 bits
+  for (int i = 0; i < 1000; ++i) relay.push_back(i / 100 % 2 == 0 ? 255.0 : 0.0);
+  EXPECT_FALSE(seen_register(relay).is_one());
 }
 
 TEST(Units, ANumberThatTheUnitMakesInfiniteIsNone) {
