@@ -294,6 +294,10 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
     diagnosis.warnings.push_back(
         "no recording is held out: the last third of each file was, which tests the model on the same "
         "kind of excitation only: another one may name other effects, or in another order.");
+  if (!study.judge_nothing.empty())
+    diagnosis.warnings.push_back(
+        fmt::format("too short for a last third that could judge, and therefore fitted whole: {}.",
+                    fmt::join(study.judge_nothing, ", ")));
   if (std::isfinite(found.alone)) diagnosis.warnings.push_back(undetermined(found));
   if (added.accepted && added.wider)
     diagnosis.warnings.push_back(

@@ -1,11 +1,15 @@
 #include "diagnosis/study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/interrupt.h"
 #include "base/require.h"
 #include "diagnosis/few_recordings.h"
+#include "gapscope/base/errors.h"
 #include "signals/encoder.h"
 #include "signals/period.h"
 
@@ -24,17 +28,38 @@ void DiagnosisKnowledge::fields(FieldVisitor& v) {
 namespace internal::diagnosis {
 namespace {
 
-/// What is fitted of a file whose last third is held out.
-MotorTrace first_part(const MotorTrace& file) {
-  return part(file, 0, static_cast<std::size_t>(kMeasure.train_share * static_cast<double>(file.size())));
+std::size_t rows_of_first_part(const MotorTrace& file) {
+  return static_cast<std::size_t>(kMeasure.train_share * static_cast<double>(file.size()));
+}
+
+/// Whether what is left of a file beside its first part could be fitted as a recording of its own.
+bool can_judge(const MotorTrace& file) { return file.size() - rows_of_first_part(file) >= kFewestFitted; }
+
+/// What is fitted of files whose last third is held out; those that are too short for that are fitted whole
+/// and stand first.
+std::vector<MotorTrace> first_parts(std::span<const MotorTrace> files) {
+  std::vector<MotorTrace> parts;
+  std::ranges::copy_if(files, std::back_inserter(parts), std::not_fn(can_judge));
+  for (const MotorTrace& file : files)
+    if (can_judge(file)) parts.push_back(part(file, 0, rows_of_first_part(file)));
+  return parts;
 }
 
 void hold_out_the_last_third(std::span<const MotorTrace> files, Study& study) {
+  study.train = first_parts(files);
   for (const MotorTrace& file : files) {
-    study.train.push_back(first_part(file));
+    if (!can_judge(file)) {
+      study.judge_nothing.push_back(file.file);
+      continue;
+    }
     study.held_out.traces.push_back(file);
-    study.held_out.scored_from.push_back(study.train.back().size());
+    study.held_out.scored_from.push_back(rows_of_first_part(file));
   }
+  if (study.held_out.traces.empty())
+    throw ConfigError(files.front().file,
+                      fmt::format("has {} samples, too few to hold out its last third: expected {} or more, "
+                                  "or another recording (held_out)",
+                                  files.front().size(), 3 * kFewestFitted));
 }
 
 /// Where a recording is cut in two: in the middle, or, where the drive rests through one of these halves (it
@@ -45,7 +70,8 @@ std::size_t half_of(const MotorTrace& t) {
   const std::size_t middle = t.size() / 2;
   if (4.0 * std::min(way[middle], way.back() - way[middle]) >= way.back()) return middle;
   const auto at = std::lower_bound(way.begin(), way.end(), 0.5 * way.back());
-  return std::clamp(static_cast<std::size_t>(at - way.begin()), t.size() / 4, t.size() - t.size() / 4);
+  const std::size_t least = std::max(t.size() / 4, kFewestFitted);
+  return std::clamp(static_cast<std::size_t>(at - way.begin()), least, t.size() - least);
 }
 
 /// Whether nearly all positions are whole numbers of quanta apart: a steady speed repeats its step, too.
@@ -85,8 +111,7 @@ Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> 
   const bool are_all = std::ranges::equal(few, train, {}, &MotorTrace::size, &MotorTrace::size);
   if (held_out.empty()) {
     hold_out_the_last_third(few, study);
-    for (const MotorTrace& t : train)
-      if (!are_all) study.all.push_back(first_part(t));
+    if (!are_all) study.all = first_parts(train);
   } else {
     study.train = few;
     if (!are_all) study.all.assign(train.begin(), train.end());

@@ -22,6 +22,7 @@ struct Study {
   std::int64_t work_before = 0;      ///< the same, by when the first look, and then further steps, may begin
   ShaftTurns turns = {};             ///< none of a slide
   std::vector<MotorTrace> all = {};  ///< what `train` stands for, where these are more; else empty
+  std::vector<std::string> judge_nothing = {};  ///< files too short for a part to be held out: fitted whole
 
   bool is_exhausted() const;  ///< no further step begins: its work is done, or it was asked to finish
   bool has_done_its_work() const;
@@ -34,7 +35,7 @@ struct Study {
   Reach reach() const { return repeats_badly() ? Reach::kAnyGain : Reach::kFloor; }
 };
 
-/// @throws std::logic_error, see diagnose().
+/// @throws std::logic_error, see diagnose(); ConfigError where no recording is long enough to be judged
 Study make_study(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                  const ReferenceModel& model, const DiagnosisOptions& options);
 

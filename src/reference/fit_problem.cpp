@@ -275,7 +275,7 @@ FitProblem make_problem(std::span<const MotorTrace> recordings, const ReferenceM
   GAPSCOPE_REQUIRE(!recordings.empty());
   GAPSCOPE_REQUIRE(!given.structure.reads_load() || given.structure.load == LoadKind::kFree);
   for (const MotorTrace& r : recordings) {
-    GAPSCOPE_REQUIRE(r.size() >= 20);
+    GAPSCOPE_REQUIRE(r.size() >= kFewestFitted);
     GAPSCOPE_REQUIRE(r.u.size() == r.size());
   }
   const ReferenceModel model = with_gap_seed(given, options);

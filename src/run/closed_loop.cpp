@@ -40,7 +40,9 @@ std::optional<ReferenceModel> quick_fit(const Configuration& c, const std::vecto
   const std::size_t every = std::max<std::size_t>(1, train.size() / kLooked);
   std::vector<Recording> few;
   for (std::size_t r = 0; r < train.size(); r += every) few.push_back(train[r]);
-  few = switched_on(few);
+  std::vector<std::string> too_short;
+  few = switched_on(few, too_short);
+  if (few.empty()) return {};
   command_anew(controller, few);
   ReferenceModel model = c.reference_model();
   model.controller.reset();
@@ -61,7 +63,8 @@ double fit_percent_of(double rmse, const MotorTrace& t) {
 
 }  // namespace
 
-std::vector<Recording> switched_on(const std::vector<Recording>& recordings) {
+std::vector<Recording> switched_on(const std::vector<Recording>& recordings,
+                                   std::vector<std::string>& too_short) {
   std::vector<Recording> on;
   for (const Recording& r : recordings) {
     if (r.command == nullptr || !(r.command->off_from < kInfinity)) {
@@ -71,7 +74,10 @@ std::vector<Recording> switched_on(const std::vector<Recording>& recordings) {
     const auto [from, to] = off_rows(r);
     const bool before = from >= r.size() - to;
     const std::size_t first = before ? 0 : to, count = before ? from : r.size() - to;
-    on.push_back(count >= kFewestSamples ? part(r, first, count) : r);
+    if (count >= kFewestSamples)
+      on.push_back(part(r, first, count));
+    else
+      too_short.push_back(r.file);
   }
   return on;
 }

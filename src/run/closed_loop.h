@@ -8,7 +8,9 @@
 namespace gapscope::internal::run {
 
 /// The longest part of each recording in which its controller was at work; of others the whole.
-std::vector<Recording> switched_on(const std::vector<Recording>& recordings);
+/// @param too_short  is told the files of which that part has fewer than kFewestSamples: they are left out
+std::vector<Recording> switched_on(const std::vector<Recording>& recordings,
+                                   std::vector<std::string>& too_short);
 
 std::vector<MotorTrace> traces_of(const std::vector<Recording>& recordings);
 

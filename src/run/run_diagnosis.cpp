@@ -77,6 +77,17 @@ bool takes_goals(const Configuration& c) {
   return c.recording && !c.recording->reading.columns.target.empty();
 }
 
+/// What the controllers of the recordings were at work in.  @throws ConfigError where that is of none enough
+std::vector<Recording> at_work(const Configuration& c, const std::vector<Recording>& recordings,
+                               std::vector<std::string>& too_short) {
+  std::vector<Recording> on = internal::run::switched_on(recordings, too_short);
+  if (on.empty() && !recordings.empty())
+    throw ConfigError(c.file, fmt::format("the controller was at work through fewer than {} samples of {}, "
+                                          "expected a recording of a longer motion under it",
+                                          kFewestSamples, fmt::join(too_short, ", ")));
+  return on;
+}
+
 /// Where the recordings do not decide: what would.
 void ask_further(const Configuration& c, const MotorTrace& like, const DiagnosisOptions& options,
                  Diagnosis& d) {
@@ -120,8 +131,9 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   asked.controller = recordings.controller;
   if (!asked.fit.gap_seed) asked.fit.gap_seed = internal::run::read_gap(c, recordings);
   const std::optional<LoopFit> loop = internal::run::fitted_loop(c, recordings, options);
-  std::vector<Recording> train = internal::run::switched_on(recordings.train.recordings),
-                         held_out = internal::run::switched_on(recordings.held_out.recordings);
+  std::vector<std::string> too_short;
+  std::vector<Recording> train = at_work(c, recordings.train.recordings, too_short),
+                         held_out = at_work(c, recordings.held_out.recordings, too_short);
   std::optional<ControllerModel> sought = recordings.sought;
   if (loop && internal::run::has_another_law(*loop)) {
     asked.controller = loop->controller, sought.reset();
@@ -131,6 +143,10 @@ Diagnosis diagnose_recordings(const Configuration& c, const DiagnosisRecordings&
   Diagnosis d = diagnose(internal::run::traces_of(train), internal::run::traces_of(held_out),
                          internal::run::diagnosed_model(c, sought), asked);
   put_into_words(d, c.coordinates);
+  if (!too_short.empty())
+    d.warnings.push_back(
+        fmt::format("left out, as the controller was at work through fewer than {} samples: {}.",
+                    kFewestSamples, fmt::join(too_short, ", ")));
   d.controller = d.fitted.controller ? d.fitted.controller->at_start() : asked.controller;
   internal::run::tell_closed_loop(recordings, loop, d);
   if (finish_requested()) {

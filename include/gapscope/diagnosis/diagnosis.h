@@ -289,10 +289,13 @@ struct DiagnosisOptions {
 /// Where `train` is explained and `held_out` is not, `train` asks for too little: the first half of what is
 /// held out is then fitted with it, the second half judges, and a warning says so.
 ///
-/// With no held-out recordings the last third of each file is held out.
+/// With no held-out recordings the last third of each file is held out; one that is too short for that
+/// (kFewestFitted) is fitted whole, judges nothing, and a warning names it.
 ///
 /// After request_finish() the search ends with its present step and says so (Diagnosis::stopped).
-/// @throws std::logic_error for an empty span or an unknown excluded effect; Interrupted.
+/// @throws std::logic_error for an empty span or an unknown excluded effect; ConfigError where nothing moves
+/// or
+///   can judge; Interrupted.
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                    const ReferenceModel& model, const DiagnosisOptions& options = {});
 

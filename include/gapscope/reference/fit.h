@@ -102,6 +102,8 @@ struct FitOptions {
   void fields(FieldVisitor& visitor);  ///< the one list: keys, bounds, units, docs
 };
 
+constexpr std::size_t kFewestFitted = 20;  ///< samples of a recording, so that they outnumber what is fitted
+
 /// Fits the drive to the input and the motor encoder alone, all recordings jointly, each with its own initial
 /// state (the load's position within the gap included).
 ///
@@ -118,8 +120,9 @@ struct FitOptions {
 ///
 /// A rollout that diverges is never a residual: the step is refused. Intervals are widened for autocorrelated
 /// residuals and for the quantiser (an undithered one repeats its error, it does not average out).
-/// @throws std::logic_error for an empty span, a recording of fewer than 20 samples, or a parameter that is
-///   neither given nor estimated.
+/// @throws std::logic_error for an empty span, a recording of fewer than kFewestFitted samples, or a
+/// parameter
+///   that is neither given nor estimated.
 FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                const FitOptions& options = {});
 
