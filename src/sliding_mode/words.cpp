@@ -173,7 +173,7 @@ Remark second_impact() {
       "the first"};
 }
 Remark load_rests() { return {"load_rests", "load rests between t1 and t2"}; }
-Remark pushed_until_turn() { return {"pushed_until_turn", "the load was pushed until x1 turned round"}; }
+Remark impacts_too() { return {"impacts_too", "impacts show the gap, too"}; }
 Remark same_by_torque() { return {"same_by_torque", "the torque behind the reversals tells the same"}; }
 Remark shelf_read(long reversals, double way) {
   return {

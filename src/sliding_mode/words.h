@@ -88,7 +88,7 @@ Remark one_gap();
 Remark one_impact();
 Remark second_impact();  ///< added to another
 Remark load_rests();
-Remark pushed_until_turn();
+Remark impacts_too();
 Remark same_by_torque();
 Remark own_encoder();
 

@@ -36,10 +36,6 @@ constexpr double kTwoLevels = 0.7;
 constexpr double kFlat = 0.25;
 constexpr double kLow = 0.2, kHigh = 0.8;  ///< of the step: between which its width is read
 constexpr double kHalf = 0.5;
-/// Of the speed before: below it the load has a ninth of its energy left to coast on where it was last seen
-/// pushed. Sines end at 0.03 to 0.3 of it, triangles at 0.6 to 0.95. Half calls 14 of those drives good, this
-/// 20, double 21, and all of them hold.
-constexpr double kSlow = 1.0 / 3.0;
 constexpr double kWidestRise = 0.3, kFinestRise = 0.004, kNextRise = 1.25;  ///< of the way: tried
 constexpr double kOffMiddle = 0.1;  ///< … from the middle of each stroke's own
 constexpr int kMiddles = 10;
@@ -194,7 +190,6 @@ struct Rise {
   double way = kNaN;       ///< to its middle [rad]
   double width = 0.0;      ///< [rad]
   double step = 0.0;       ///< that x1 goes from a sample to the next on the shelf [rad]
-  double slowed = 0.0;     ///< its speed there, over what it was before [-]
   double unseen = 0.0;     ///< what x1 went before the turn since the load was seen pushed [rad]
 };
 
@@ -215,18 +210,7 @@ std::size_t last_pushed(const MotorTrace& trace, const Stroke& s, const TwoLevel
   return i;
 }
 
-/// Speed of x1 over the last of a way to there, over that on all of it.
-double slowed_down(const MotorTrace& trace, const Stroke& s, std::size_t at, double way, double last) {
-  const auto back = [&](double farther) {
-    std::size_t i = at;
-    while (i > s.before && way_at(trace, s, i) - way_at(trace, s, at) < farther) --i;
-    return at - i;
-  };
-  const double whole = static_cast<double>(back(way)), end = static_cast<double>(back(last));
-  return whole > 0.0 && end > 0.0 ? (last / end) / (way / whole) : kInfinity;
-}
-
-std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shelf& shelf, double least_way) {
+std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shelf& shelf) {
   const TwoLevels& levels = shelf.levels[side(s.direction)];
   const std::size_t end = end_of_window(trace, s, shelf.window);
   std::size_t begin = s.turn;
@@ -250,7 +234,6 @@ std::optional<Rise> rise_of(const MotorTrace& trace, const Stroke& s, const Shel
   r.width = width_at(trace, s, levels, at, end);
   const std::size_t pushed = last_pushed(trace, s, shelf.levels[side(-s.direction)]);
   r.unseen = std::max(way_at(trace, s, pushed), 0.0);
-  r.slowed = slowed_down(trace, s, pushed, shelf.way, least_way);
   return r;
 }
 
@@ -320,7 +303,7 @@ std::optional<GapEvidence> shelf_of(const MotorTrace& trace, const signals::Sign
   if (!shelf) return {};
   Rises reading;
   for (const Stroke& s : strokes)
-    if (const auto rise = rise_of(trace, s, *shelf, facts.least_way()))
+    if (const auto rise = rise_of(trace, s, *shelf))
       reading.rises.push_back(*rise), reading.strokes.push_back(s);
   const auto up = reading.of(&Rise::way, 1), down = reading.of(&Rise::way, -1);
   if (std::min(up.size(), down.size()) < kFewestEachWay) return {};
@@ -341,8 +324,7 @@ std::optional<GapEvidence> shelf_of(const MotorTrace& trace, const signals::Sign
   if (!(e.gap > signals::kFewestToldQuanta * facts.quantum)) return {};
   keep_reversals(trace, reading, rise, e);
   const bool both = e.parts.directions <= kNormal95 * e.parts.beside_directions();
-  e.tested = {{words::both_directions(), both},
-              {words::pushed_until_turn(), median(reading.of(&Rise::slowed)) <= kSlow}};
+  e.tested = {{words::both_directions(), both}, {words::impacts_too(), false}};
   e.presumes = {words::one_gap(), words::load_rests(), words::own_encoder()};
   e.reading = words::shelf_read(std::ssize(reading.rises), rise);
   return e;
