@@ -195,7 +195,7 @@ class BadInput(InAFolder):
         self.refused("recording.csv: has angle, expected time", gapscope.detect, YAML,
                      {**good, "angle": good["position"]})
         self.refused("columns: {voltage: voltage}", gapscope.detect, YAML, {**good, "voltage": good["input"]})
-        self.refused("recording.csv:", gapscope.detect, YAML, {**good, "time": good["time"][::-1]})
+        self.refused("recording.csv:", gapscope.detect, YAML, {**good, "time": numpy.roll(good["time"], 100)})
         self.refused("recording.csv", gapscope.detect, YAML, {"time": good["time"], "position": good["position"]})
         self.refused("simulation", gapscope.detect, SOURCE / "configs/02_experiment.yaml", good)
 
