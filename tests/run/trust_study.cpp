@@ -1,4 +1,4 @@
-// How far reading, fit and card can be trusted on drives of other laws (src/independent_plant/family.h).
+// How far reading, fit and card can be trusted on drives of other laws (tests/drives/family.h).
 //   study_trust FAMILY FIRST COUNT [gap_free] [each] [reading] [x2] [in=FOLDER]
 // e.g. study_trust grease 1 12 reading each; study_trust all 1 12 gap_free
 // gap_free: the same drives with their gaps closed; each: a line for each drive; reading: `detect` alone,
