@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "blind/blind_pair.h"
 #include "diagnosis/mismatch_size.h"
+#include "gapscope/base/errors.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {
@@ -70,6 +71,39 @@ TEST(HalfOfTheHeldOut, IsOfTheWayWhereTheDriveRestsThroughAHalf) {
   EXPECT_EQ(study.held_out.scored_from[3], 1500u) << "no half is shorter than a fourth of it";
   ASSERT_EQ(study.train.size(), 4u);
   EXPECT_EQ(study.train[2].size(), study.held_out.scored_from[2]);
+}
+
+/// The first rows of a drive that sooner rests.
+MotorTrace rows_of(const std::vector<double>& x1, std::size_t rows, const char* file) {
+  MotorTrace t;
+  t.file = file, t.dt = 1e-3;
+  t.u = std::span(x1).first(rows), t.x1 = std::span(x1).first(rows);
+  return t;
+}
+
+TEST(HalfOfTheHeldOut, CanBeFittedHoweverShort) {
+  const std::vector<double> x1 = moving_until(0.01);
+  const DiagnosisOptions options;
+  Study study{.train = {}, .held_out = {}, .sheet = {}, .catalogue = {}, .effort = {}, .options = options};
+  study.held_out.traces = {rows_of(x1, 50, "short.csv")}, study.held_out.scored_from = {0};
+  fit_half_of_the_held_out(study);
+  EXPECT_GE(study.train[0].size(), kFewestFitted);
+  EXPECT_GE(study.held_out.traces[0].size() - study.held_out.scored_from[0], kFewestFitted);
+}
+
+TEST(TheLastThird, IsNotHeldOutWhereItCouldNotBeFitted) {
+  const std::vector<double> x1 = moving_until(6.0);
+  const std::vector<MotorTrace> files = {rows_of(x1, 600, "long.csv"), rows_of(x1, 57, "short.csv")};
+  const Study study = make_study(files, {}, ReferenceModel(), {});
+  EXPECT_EQ(study.judge_nothing, std::vector<std::string>{"short.csv"});
+  ASSERT_EQ(study.held_out.traces.size(), 1u);
+  EXPECT_EQ(study.held_out.traces[0].file, "long.csv");
+  ASSERT_EQ(study.train.size(), 2u);
+  EXPECT_EQ(study.train[0].size(), 57u) << "fitted whole";
+  EXPECT_EQ(study.train[1].size(), study.held_out.scored_from[0]);
+  ASSERT_EQ(everything(study).size(), 2u) << "the file that is judged is whole in it, the other as it is";
+  EXPECT_EQ(everything(study)[1].size(), 600u);
+  EXPECT_THROW(make_study(std::span(files).last(1), {}, ReferenceModel(), {}), ConfigError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, Undetermined, ::testing::Values(500001u, 500002u, 500003u));
