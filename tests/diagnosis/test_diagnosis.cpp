@@ -54,18 +54,6 @@ TEST(Diagnosis, TakesASteadySpeedForNoCoarserEncoder) {
   EXPECT_EQ(internal::diagnosis::make_study(train, held_out, pair.sheet, {}).seen_quantum, 0.0);
 }
 
-TEST(Diagnosis, FitsARecordingTooShortForALastThirdWholeAndNamesIt) {
-  const blind::BlindPair pair = blind::blind_pair("geared", "none", 0.0, 500001);
-  const MotorTrace whole = pair.train.motor_trace(), few = part(whole, 0, 50);
-  const MotorTrace both[] = {whole, few}, alone[] = {few};
-  const internal::diagnosis::Study study = internal::diagnosis::make_study(both, {}, pair.sheet, {});
-  ASSERT_EQ(study.train.size(), 2u);
-  EXPECT_EQ(study.train.front().size(), 50u);
-  EXPECT_EQ(study.held_out.traces.size(), 1u);
-  EXPECT_EQ(study.judge_nothing.size(), 1u);
-  EXPECT_THROW(internal::diagnosis::make_study(alone, {}, pair.sheet, {}), ConfigError);
-}
-
 void expect_named_with_its_blame(const Diagnosis& d) {
   ASSERT_EQ(d.verdict, DiagnosisVerdict::kEffect);
   EXPECT_EQ(d.effects, std::vector<std::string>{"motor_coulomb_friction"});
