@@ -293,9 +293,8 @@ struct DiagnosisOptions {
 /// (kFewestFitted) is fitted whole, judges nothing, and a warning names it.
 ///
 /// After request_finish() the search ends with its present step and says so (Diagnosis::stopped).
-/// @throws std::logic_error for an empty span or an unknown excluded effect; ConfigError where nothing moves
-/// or
-///   can judge; Interrupted.
+/// @throws std::logic_error for an empty span or an unknown excluded effect; ConfigError where nothing moves,
+///   or where no recording can judge; Interrupted.
 Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace> held_out,
                    const ReferenceModel& model, const DiagnosisOptions& options = {});
 

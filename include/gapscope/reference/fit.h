@@ -121,8 +121,7 @@ constexpr std::size_t kFewestFitted = 20;  ///< samples of a recording, so that 
 /// A rollout that diverges is never a residual: the step is refused. Intervals are widened for autocorrelated
 /// residuals and for the quantiser (an undithered one repeats its error, it does not average out).
 /// @throws std::logic_error for an empty span, a recording of fewer than kFewestFitted samples, or a
-/// parameter
-///   that is neither given nor estimated.
+///   parameter that is neither given nor estimated.
 FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                const FitOptions& options = {});
 

@@ -52,7 +52,7 @@ constexpr double kAlmost = 4.0;  ///< χ²
 constexpr double kDoubt = 0.5;   ///< standard deviation, over what shapes and windows differ by
 /// Standard deviation, over the gap: contacts and bounces are no kink of the shapes that are tried. Of 16
 /// families with other laws (study_trust all 1 24 reading; two gaps in series apart) its intervals hold 17 of
-/// 19, with 0.03, which the plant's own contacts ask for, 15; double holds no more.
+/// 19, with 0.03, which the plant's own contacts ask for, 15; double would hold 18, 20 % wide to either side.
 constexpr double kImpactLaw = 0.05;
 constexpr double kRounding = 0.3;  ///< standard deviation of the level of rest, in quanta
 /// Counts in a gap that is told. Below it three of ten are off by three standard deviations, above it none of
