@@ -22,7 +22,7 @@ StarterChoice as_seen(std::span<const MotorTrace> traces, Coordinates coordinate
   if (g.verdict == GapVerdict::kBacklash)
     return {StarterModel::kGap,
             "gap and free load: the detector reads a gap of " + coordinates.thousandths(g.gap)};
-  if (g.reason.code() == "only_large_gaps")
+  if (g.reason.code() == "only_large_gaps" || g.reason.code() == "held_closed")
     return {StarterModel::kOneBody, "GUESS: one body; no impact shows, but " + g.reason.text(coordinates),
             false};
   return {StarterModel::kGap,

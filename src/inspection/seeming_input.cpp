@@ -69,17 +69,13 @@ std::optional<Finding> seeming_input(const Material& m, const std::string& found
 
 std::optional<Finding> constant_input(const Material& m, const std::string& found) {
   const std::vector<double>& u = m.recording.u;
-  const double level = mean(u);
-  double squares = 0.0;
-  for (const double v : u) squares += (v - level) * (v - level);
-  const double swing = std::sqrt(2.0 * squares / static_cast<double>(u.size()));
-  if (m.commanded || !(std::abs(level) > kFarFromZero * swing) || !(swing > 0.0)) return {};
+  if (m.commanded || !(m.signal.leaning > kFarFromZero)) return {};
   return Finding{
       kInputRule, Severity::kNote,
       found +
           fmt::format(
               ", {} in the mean, which is {:.0f} % of its swing: a constant load, as gravity or a preload{}",
-              figure(level), 100.0 * std::abs(level) / swing,
+              figure(mean(u)), 100.0 * m.signal.leaning,
               has_one_sign(u) ? "; it never changes its sign" : ""),
       "give the model constant_load_torque, or load_unbalance where an arm turns, estimated; a contact that such a load "
       "holds closed does not open, and no gap shows then: unload it, or swing u about 0",

@@ -69,6 +69,14 @@ std::vector<double> about_its_mean(Samples y, std::size_t lag) {
   return level;
 }
 
+double leaning(Samples u) {
+  double sum = 0.0, squares = 0.0;
+  for (const double v : u) sum += v;
+  const double level = sum / static_cast<double>(u.size());
+  for (const double v : u) squares += (v - level) * (v - level);
+  return squares > 0.0 ? std::abs(level) / std::sqrt(2.0 * squares / static_cast<double>(u.size())) : 0.0;
+}
+
 /// Travel, centre and half periods of what is left of x1 without its drift.
 void read_period(const MotorTrace& trace, Samples level, SignalFacts& facts) {
   const std::vector<double> values(level.begin(), level.end());
@@ -97,6 +105,7 @@ double SignalFacts::sharing(double step) const {
 
 SignalFacts read_facts(const MotorTrace& trace) {
   SignalFacts facts;
+  facts.leaning = leaning(trace.u);
   const Samples y = trace.x1;
   if (y.size() < 200 || !(trace.dt > 0.0)) {
     facts.defect = {"too_short", "recording too short: record at least three periods of a periodic motion"};

@@ -10,12 +10,15 @@ namespace gapscope::internal::signals {
 
 /// What the samples say about themselves, before any detection.
 struct SignalFacts {
-  double quantum = 0.0;      ///< of the encoder [rad]
-  double noise = 0.0;        ///< σ_n, standard deviation of one sample: noise and quantisation [rad]
-  double travel = 0.0;       ///< peak to peak, without the drift from period to period [rad]
-  double centre = 0.0;       ///< middle of that travel [rad]
-  double amplitude = 0.0;    ///< half of it, from the 2 and 98 % quantiles [rad]
-  double speed_rms = 0.0;    ///< [rad/s]
+  double quantum = 0.0;    ///< of the encoder [rad]
+  double noise = 0.0;      ///< σ_n, standard deviation of one sample: noise and quantisation [rad]
+  double travel = 0.0;     ///< peak to peak, without the drift from period to period [rad]
+  double centre = 0.0;     ///< middle of that travel [rad]
+  double amplitude = 0.0;  ///< half of it, from the 2 and 98 % quantiles [rad]
+  double speed_rms = 0.0;  ///< [rad/s]
+  /// Mean of u, without its sign, over √2 times its standard deviation: the amplitude of a sine about it.
+  /// Beyond 1 what u works against, such as gravity or a preload, exceeds all that it swings by.
+  double leaning = 0.0;
   double half_period = 0.0;  ///< median time between crossings of the centre [s]
   std::size_t half_periods = 0;
   double input_period = 0.0;           ///< exact_period() of u [s]; 0: it has none

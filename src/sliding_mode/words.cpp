@@ -138,6 +138,13 @@ Remark one_body(double mass_ratio, double half_periods) {
           "{:.0f} half periods",
           {mass_ratio, half_periods}};
 }
+Remark held_closed(double leaning) {
+  return {
+      "held_closed",
+      "the mean of u is {:.1f} times what u swings by: what it works against, such as gravity or a preload, "
+      "holds the contact closed, and no gap shows; unload it, or let u swing about 0",
+      {leaning}};
+}
 Remark only_large_gaps(double mass_ratio, double visible, double travel) {
   return {"only_large_gaps",
           "this recording could only have shown a gap of {:.2g} [rad], on a travel of {:.2g} [rad], and for "

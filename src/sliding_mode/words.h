@@ -42,6 +42,8 @@ Remark directions_differ();
 Remark recordings_differ();
 Remark samples_apart();
 Remark one_body(double mass_ratio, double half_periods);
+/// What u works against holds the contact closed.  @param leaning  SignalFacts
+Remark held_closed(double leaning);
 Remark only_large_gaps(double mass_ratio, double visible, double travel);
 Remark flights_together(long used, long turns);
 

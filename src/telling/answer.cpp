@@ -271,6 +271,7 @@ const char* remedy(const FitSummary& fit) {
 Statement step_to_a_reading(const GapEstimate& g) {
   if (g.reason.has_code("bounds_to_try") || g.reason.has_code("bound_to_try")) return {"next.bound_as_told"};
   if (g.reason.has_code("auto_reads")) return {"next.bound_auto"};
+  if (g.reason.code() == "held_closed") return {"next.unload"};
   for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
     if (g.reason.code() == slow) return {"next.faster"};
   const bool bank = g.reason.has_code("nothing_reads");

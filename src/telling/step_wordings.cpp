@@ -104,6 +104,9 @@ constexpr Wording kSteps[] = {
     {"next.bound_auto", "Set detector: bound to auto, which reads this recording."},
     {"next.faster",
      "For a reading without a model: a faster motion, a finer encoder or faster sampling, the output free."},
+    {"next.unload",
+     "For the gap, take the constant load off (turn the drive so that its weight does not act, release the "
+     "preload), or let the input swing about 0."},
     {"next.advice", "For a reading without a model: {advice}."},
     {"next.free_motion",
      "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell at "

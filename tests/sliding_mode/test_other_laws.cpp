@@ -42,6 +42,15 @@ TEST(OtherLaws, ASecondImpactThatIsStrongerTellsTheFirstOfSeveralGaps) {
   EXPECT_GE(seen, 2);
 }
 
+/// Gravity holds the gap shut: nothing shows it, and nothing denies it.
+TEST(OtherLaws, AContactThatIsHeldClosedIsTheReasonThatNoGapShows) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Read drive = read("gravity_shut", seed);
+    EXPECT_EQ(drive.estimate.verdict, GapVerdict::kInconclusive) << drive.estimate.brief_report();
+    EXPECT_EQ(drive.estimate.reason.code(), "held_closed") << drive.estimate.brief_report();
+  }
+}
+
 /// The motor leaves a bounce, rests within the gap and goes on from there.
 TEST(OtherLaws, ARestBehindTheTurnIsLookedAtAsOneAtTheTurn) {
   const Read drive = read("hunt_crossley", 20), at_its_load = read("hunt_crossley", 8);

@@ -176,6 +176,7 @@ Pool pool_of(std::span<const ImpactAnalysis> analyses, std::span<const double> i
     pool.noise = std::max(pool.noise, a.facts.noise);
     pool.quantum = std::max(pool.quantum, a.facts.quantum);
     pool.dt = std::max(pool.dt, intervals[i]);
+    pool.leaning = std::min(pool.leaning, a.facts.leaning);
     pool.visible = std::max(pool.visible, a.smallest_visible_gap);
     pool.finest = std::max(pool.finest, a.finest_gap);
     pool.encoder = std::max(pool.encoder, encoder_visible_gap(a.facts));

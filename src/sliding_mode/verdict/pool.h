@@ -24,6 +24,7 @@ struct Pool {
   std::size_t marks = 0, striking = 0;     // main events; passages that friction does not make
   double half_periods = 0.0, travel = kInfinity, dt = 0.0, noise = 0.0, quantum = 0.0;
   double visible = 0.0, finest = 0.0, encoder = 0.0;  // smallest gaps that would show, see ImpactAnalysis
+  double leaning = kInfinity;                         // of u, the least of all recordings
 
   std::size_t seen() const;     ///< passages of both directions
   Refusal commonest() const;    ///< reason that a passage is refused for
