@@ -118,7 +118,7 @@ TEST(FreeFlight, AFlightThatBeginsInTheReboundOfAnImpactIsNotUsed) {
       independent_plant::random_drive(320033, independent_plant::Waveform::kMultisine);
   const GapEstimate estimate = detect(c);
   EXPECT_TRUE(std::any_of(estimate.events.begin(), estimate.events.end(), [](const GapEvent& e) {
-    return e.remark == "the impact before it threw motor and load apart";
+    return e.remark.starts_with("the impact before it threw motor and load apart");
   }));
   if (estimate.verdict == GapVerdict::kBacklash) {
     EXPECT_NEAR(estimate.gap, c.drive.gap, 0.08 * c.drive.gap) << estimate.brief_report();

@@ -198,7 +198,7 @@ void write_way(const MotorTrace& trace, const Laws& laws, const Coasting& c, std
   t.by_law = true;
   t.untold = std::min(best.travel, best.lost) > kKnownLoss * best.gap;
   t.event.remark = "corrected for the travel of the load";
-  t.refusal = best.gap > 0.0 ? Refusal::kNone : Refusal::kLoadMoving;
+  refuse(t, best.gap > 0.0 ? Refusal::kNone : Refusal::kLoadMoving);
 }
 
 /// All passages with the laws of both stretches, where these hold.
@@ -253,7 +253,7 @@ void doubt_travel(Passage& t) {
 void leave_out(Passage& t) {
   const bool answers = t.refusal == Refusal::kNone || t.refusal == Refusal::kLoadMoving;
   if (answers && !t.by_law && !t.dwell && t.load_travel > kToldTravel * t.event.gap)
-    t.refusal = Refusal::kThrownOff;
+    refuse(t, Refusal::kThrownOff);
 }
 
 /// @param apart  by what the gap differs from that after a shorter wait for the bounces [rad]

@@ -162,22 +162,23 @@ void read_release(Passage& t, const PassageContext& context, const FlightLaw& la
                   const Reversal& reversal) {
   const Release release = find_release(context, law, impact);
   if (!release.found) {
-    t.refusal = Refusal::kNoRelease;
+    refuse(t, Refusal::kNoRelease);
     return;
   }
   fill_event(t, context, impact, release);
   if (!release.far_flank) {
     if (!t.dwell || !rested(reversal, release)) {
-      t.refusal = Refusal::kSameFlank;
+      refuse(t, Refusal::kSameFlank);
       return;
     }
     begin_at_rest(t, context, impact, reversal);
   }
-  if (!(t.event.gap > 0.0) || std::abs(release.contradiction) > kContradiction * t.event.gap ||
-      (!release.passive && release.load_travel > kContradiction * t.event.gap))
-    t.refusal = Refusal::kLoadMoving;
+  const double open = std::max(std::abs(release.contradiction), release.passive ? 0.0 : release.load_travel);
+  if (!(t.event.gap > 0.0) || open > kContradiction * t.event.gap)
+    refuse(t, Refusal::kLoadMoving, t.event.gap > 0.0 ? open / t.event.gap : kNaN, kContradiction);
   const double along = way_along(t, release, reversal, context.facts.quantum + 2.0 * context.facts.noise);
-  if (t.refusal == Refusal::kNone && along > kGoesAlong * t.event.gap) t.refusal = Refusal::kPushed;
+  if (t.refusal == Refusal::kNone && along > kGoesAlong * t.event.gap)
+    refuse(t, Refusal::kPushed, along / t.event.gap, kGoesAlong);
 }
 
 /// The largest gap that a passage can be: of a load that parted from the motor at any instant of the stroke
@@ -235,14 +236,14 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   t.event.x1_t1 = reversal.position;
   const bool small = reversal.rise < context.facts.least_way();
   if (small && !goes_on(context, t.event.direction, from, impact.start)) {
-    t.refusal = Refusal::kSmallRise;
+    refuse(t, Refusal::kSmallRise, reversal.rise / context.facts.least_way(), 1.0);
     return t;
   }
   const Flight flight = flight_of(context, impact, reversal);
   const FlightLaw& law = *flight.law;
   const ImpactTime& time = flight.impact;
   if (!time.found) {
-    t.refusal = Refusal::kNoImpactFit;
+    refuse(t, Refusal::kNoImpactFit);
     return t;
   }
   t.event.t2 = trace.start + trace.dt * time.time;
@@ -253,15 +254,15 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   if (!small && !time.freed && (time.drive > 0.0 || !steps(context, impact)))
     t.most = most_of(trace, reversal, std::min(from, flight_begin(context, impact)), time);
   if (time.freed) {
-    t.refusal = Refusal::kTorn;
+    refuse(t, Refusal::kTorn);
     return t;
   }
   if (!(time.drive > 0.0)) {
-    t.refusal = small ? Refusal::kNoReversal : Refusal::kLoadHits;
+    refuse(t, small ? Refusal::kNoReversal : Refusal::kLoadHits);
     return t;
   }
   read_release(t, context, law, time, reversal);
-  if (t.refusal == Refusal::kNone && small) t.refusal = Refusal::kLoadMoving;  // unless its law is known
+  if (t.refusal == Refusal::kNone && small) refuse(t, Refusal::kLoadMoving);  // unless its law is known
   if (t.refusal != Refusal::kNone) return t;
   if (!t.dwell) return t;
   const auto begin = static_cast<std::size_t>(std::max((t.t1_last - trace.start) / trace.dt, 0.0)) + 1;
@@ -272,7 +273,7 @@ Passage read_between(const PassageContext& context, const BankEvent& impact, std
   t.half_width += 0.5 * std::min(left, kOwnBending * t.event.gap);  // by contact or by its own friction
   const RestingPlace place = resting_place(trace, context.facts, {&passage, 1});
   t.untold = place != RestingPlace::kAtLoad;
-  if (place == RestingPlace::kAlone) t.refusal = Refusal::kRestsAlone;
+  if (place == RestingPlace::kAlone) refuse(t, Refusal::kRestsAlone);
   return t;
 }
 
@@ -287,21 +288,25 @@ double bound_needed_before(const BankMarks& run, std::size_t from, std::size_t t
 
 /// Contact that was lost soon after an impact was lost in the rebound from it, with different speeds of motor
 /// and load. (A mark of the release itself is far less abrupt than the impact that follows it.)
-bool thrown_off(const PassageContext& context, const BankEvent& before, const BankEvent& impact,
-                const Passage& t) {
-  const double since = t.event.t1 - context.trace.time(before.start);
-  return since >= 0.0 && since < kRebound * (t.event.t2 - t.event.t1) &&
-         kEcho * before.abruptness > impact.abruptness;
+void refuse_thrown_off(const PassageContext& context, const BankEvent& before, const BankEvent& impact,
+                       Passage& t) {
+  const double since = (t.event.t1 - context.trace.time(before.start)) / (t.event.t2 - t.event.t1);
+  if (since >= 0.0 && since < kRebound && kEcho * before.abruptness > impact.abruptness)
+    refuse(t, Refusal::kThrownOff, since, kRebound);
 }
 
 }  // namespace
+
+void refuse(Passage& t, Refusal refusal, double seen, double limit) {
+  t.refusal = refusal, t.seen = seen, t.limit = limit;
+}
 
 GapEvent event_of(const Passage& p) {
   GapEvent event = p.event;
   event.std = p.half_width / kNormal95;
   if (!p.released()) event.t1 = event.x1_t1 = event.std = kNaN;  // where x1 turned tells no loss of contact
   event.accepted = p.refusal == Refusal::kNone;
-  if (!event.accepted) event.remark = refusal_text(p.refusal);
+  if (!event.accepted) event.remark = refusal_text(p.refusal, p.seen, p.limit);
   return event;
 }
 
@@ -316,9 +321,9 @@ Passage read_passage(const PassageContext& context, const BankEvent& before, con
   t.abruptness = impact.abruptness;
   t.contrast = impact.abruptness / needed;
   if (t.contrast < kContrast)
-    t.refusal = Refusal::kContrast, t.most = kNaN;
-  else if (t.refusal == Refusal::kNone && thrown_off(context, before, impact, t))
-    t.refusal = Refusal::kThrownOff;
+    refuse(t, Refusal::kContrast, t.contrast, kContrast), t.most = kNaN;
+  else if (t.refusal == Refusal::kNone)
+    refuse_thrown_off(context, before, impact, t);
   return t;
 }
 

@@ -18,7 +18,8 @@ namespace gapscope::internal::sliding_mode {
 struct Passage {
   GapEvent event;
   Refusal refusal = Refusal::kNone;
-  double contrast = 0.0;    ///< abruptness over what the motion before it needs
+  double seen = kNaN, limit = kNaN;  ///< of the test that refused it (refusal.h), where it has a number
+  double contrast = 0.0;             ///< abruptness over what the motion before it needs
   double half_width = 0.0;  ///< systematic, 95 %: where the release and the load's travel may lie [rad]
   double speed = 0.0;  ///< at which the gap closes: of the motor before the impact, less the load's [rad/s]
   double acceleration = 0.0;  ///< of the motor in the gap, just before the impact [rad/s²]
@@ -35,6 +36,9 @@ struct Passage {
   double t2_half_width = 0.0;                         ///< of half_width, by t2 alone [s]
   bool released() const { return half_width > 0.0; }  ///< both ends of the flight were found
 };
+
+/// @param seen, limit  of the test, where it has a number
+void refuse(Passage& passage, Refusal refusal, double seen = kNaN, double limit = kNaN);
 
 /// As it is told: without t1 where the release was not found.
 GapEvent event_of(const Passage& passage);

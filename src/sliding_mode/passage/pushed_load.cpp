@@ -89,8 +89,7 @@ void refuse_pushed_loads(const MotorTrace& trace, const signals::SignalFacts& fa
     const auto fit = fit_strokes(trace, facts, passages, skipped);
     if (!fit) continue;
     for (const EngagedStroke& s : fit->strokes)
-      if (s.passage->refusal == Refusal::kNone && fit->pushes(trace, s))
-        s.passage->refusal = Refusal::kPushed;
+      if (s.passage->refusal == Refusal::kNone && fit->pushes(trace, s)) refuse(*s.passage, Refusal::kPushed);
     return;
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "gapscope/base/remark.h"
 
 namespace gapscope::internal::sliding_mode {
@@ -30,9 +32,13 @@ enum class Refusal {
   kPushed,       ///< a force drives the load through the gap, too
 };
 
-PassageTest test_of(Refusal refusal);       ///< of a refusal that is one
-const char* refusal_text(Refusal refusal);  ///< for the remark of an event; empty for none
-Remark advice(Refusal refusal);             ///< what to change where it is the commonest
+PassageTest test_of(Refusal refusal);  ///< of a refusal that is one
+
+/// For the remark of an event.
+/// @param seen   what was measured, where the test has a number: a ratio, as the text says; else NaN
+/// @param limit  what the test asks of it
+std::string refusal_text(Refusal refusal, double seen, double limit);
+Remark advice(Refusal refusal);  ///< what to change where it is the commonest
 bool speaks_of_moving_load(Refusal refusal);
 bool says_nothing(Refusal refusal);  ///< for or against a gap
 
