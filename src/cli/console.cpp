@@ -57,9 +57,10 @@ std::string model_free_line(const GapEstimate& g, Coordinates coordinates) {
 
 std::string lost_motion_line(const LostMotion& m, Coordinates coordinates) {
   std::string text = estimate(m.value, m.ci95, coordinates) + " ";
-  if (m.levels.size() > 1)
-    text += fmt::format("{} to {} by torque level, ", coordinates.thousandths(m.range().low),
-                        coordinates.thousandths(m.range().high));
+  for (const LostMotionLevel& level : m.levels)
+    if (m.levels.size() > 1)
+      text += fmt::format("{} after ramps to ±{:.3g}{}", coordinates.thousandths(level.lost_motion),
+                          level.amplitude, &level == &m.levels.back() ? "; " : ", ");
   return text + m.meaning.text();
 }
 

@@ -77,6 +77,7 @@ void fields(Archive& archive, LostMotion& m) {
                                         {LostMotionCause::kOpen, "open"}});
   archive("meaning", m.meaning);
   archive("gap_limit_rad", m.gap_limit);
+  archive("gap_limit_amplitude_u", m.limit_amplitude);
   archive.list("levels", m.levels);
 }
 

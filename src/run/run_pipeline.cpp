@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -60,6 +61,25 @@ PublishedBound published_bound(const Configuration& c, const std::vector<MotorTr
   if (c.model.structure.has_load && std::isfinite(bound.low) && std::isfinite(bound.high))
     published.bound = bound;
   return published;
+}
+
+/// Of a rejected model a reader is told which of its numbers are open; the report has what each would need.
+std::vector<std::string> warnings_of_fit(const FitSummary& f) {
+  if (!f.rejected()) return texts_of(f.warnings);
+  static const std::set<std::string> of_numbers{"not_explained",      "at_bound",        "no_trace",
+                                                "like_initial_state", "change_together", "not_determined",
+                                                "no_information",     "little_known",    "values_move"};
+  std::vector<std::string> told, open;
+  for (const Remark& warning : f.warnings)
+    if (!of_numbers.contains(warning.code())) told.push_back(warning.text());
+  for (const FittedParameter& p : f.parameters)
+    if (p.estimated && (p.at_bound || !p.identifiable)) open.push_back(p.key);
+  if (!open.empty())
+    told.push_back(fmt::format(
+        "the fitted model is rejected, and its numbers say nothing of the drive; not determined, or at a bound: {} "
+        "(the report tells the reason of each).",
+        fmt::join(open, ", ")));
+  return told;
 }
 
 double largest_travel(const std::vector<Recording>& recordings) {
@@ -282,7 +302,7 @@ RunOutcome run_pipeline(const Configuration& given, const Estimators& wanted, co
   if (r.model_free && r.reference) take_for_first_gap(*r.reference, *r.model_free);
   put_into_words(r);
   if (r.model_free) append(out.warnings, texts_of(r.model_free->warnings));
-  if (r.reference) append(out.warnings, texts_of(r.reference->warnings));
+  if (r.reference) append(out.warnings, warnings_of_fit(*r.reference));
   if (r.reference) append(out.warnings, internal::run::guess_warnings(c));
   if (const FittedParameter* p = r.reference ? r.reference->find("load_unbalance.phase_rad") : nullptr)
     if (std::string hangs = internal::run::hanging_warning(c, p->value); !hangs.empty())

@@ -162,7 +162,9 @@ Told lost_motion(const Findings& f) {
   if (l.gap_limit > f.travel)
     told.push_back({"gap.beyond_travel", {length("travel", f.travel)}});
   else if (std::isfinite(l.gap_limit))
-    told.push_back({"gap.at_most", {length("limit", l.gap_limit)}});
+    told.push_back({l.limited_by_larger() ? "gap.at_most.larger" : "gap.at_most",
+                    {length("limit", l.gap_limit),
+                     word("by", l.levels.size() > 1 ? fmt::format("{:.3g}", l.limit_amplitude) : "")}});
   told.push_back({l.cause == LostMotionCause::kGap        ? "lost_motion.gap"
                   : l.cause == LostMotionCause::kFriction ? "lost_motion.friction"
                                                           : "lost_motion.open"});
@@ -294,7 +296,8 @@ Statement step_without_model(const GapEstimate& g) {
     return step_to_a_reading(g);
   if (open && g.reason.has_code("auto_reads")) return {"next.bound_auto"};
   const std::size_t levels = g.lost_motion.levels.size();
-  if (open && levels > 1) return {"next.smaller_ramps"};
+  if (open && levels > 1)
+    return {g.lost_motion.limited_by_larger() ? "next.ramps_between" : "next.smaller_ramps"};
   if (g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kFirstGap) return {"next.hold_output"};
   const bool play = g.verdict == GapVerdict::kBacklash && g.quantity == GapQuantity::kPlayAtZeroTorque;
   return {open || (levels < 2 && play) ? "next.two_levels" : ""};

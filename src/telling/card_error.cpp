@@ -20,7 +20,8 @@ Told fit_of_motion(const CardFacts& f) {
   if (f.reference == nullptr || std::isnan(f.reference->fit_percent)) return {{"error.not_fitted"}};
   const double fit = f.reference->fit_percent;
   Told told = {{fit > 0.0 ? "error.fit" : "error.fit.departs", {word("fit", fmt::format("{:.4g} %", fit))}}};
-  if (f.reference->rejected()) told.push_back({"error.fit.rejected"});
+  if (f.reference->rejected())
+    told.push_back({fit > 0.0 ? "error.fit.rejected.all_the_same" : "error.fit.rejected"});
   return told;
 }
 

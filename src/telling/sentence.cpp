@@ -79,7 +79,7 @@ std::string verdict_words(const Diagnosis& d, Coordinates) {
   if (d.verdict == DiagnosisVerdict::kEffect)
     how = std::string("missing in the model: ") + kHow[static_cast<int>(doubt_of(d))];
   if (d.verdict == DiagnosisVerdict::kHelps) how = "the error falls, but no cause is established";
-  if (d.verdict == DiagnosisVerdict::kNone) how = "nothing is missing in the model";
+  if (d.verdict == DiagnosisVerdict::kNone) how = "nothing is missing that these recordings show";
   if (d.verdict == DiagnosisVerdict::kUnknown && d.stopped) how = "the search was stopped before its end";
   return to_string(d.verdict) + (how.empty() ? "" : " (" + how + ")");
 }

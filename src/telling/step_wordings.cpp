@@ -52,7 +52,8 @@ constexpr Wording kSteps[] = {
     {"next.export.any", "`gapscope export` writes {what} for other simulators."},
     {"next.export.loses", "",
      "`gapscope export` loses a part of {lost} in every format; certificate.md says how much."},
-    {"next.settle", "To settle the cause, record another motion ({motion}) and diagnose again with that."},
+    {"next.settle",
+     "To settle the cause, record another motion ({motion}) and diagnose again with that held out."},
     {"next.confirm",
      "To see whether that holds elsewhere, record another motion ({motion}) and diagnose again with that."},
     {"next.mend_simulator",
@@ -114,6 +115,9 @@ constexpr Wording kSteps[] = {
     {"next.smaller_ramps",
      "Add ramps to half the smallest torque: the gap is at most the lost motion there, and wind-up shrinks "
      "with the torque."},
+    {"next.ramps_between",
+     "Add ramps to torques between those: the smallest that overcome the friction bound the gap by their lost "
+     "motion."},
     {"next.hold_output",
      "Hold the output and record slow ramps of both directions: their lost motion is the play of all gaps together."},
     {"next.two_levels",

@@ -27,7 +27,8 @@ constexpr Wording kWordings[] = {
      "each passage."},
     {"gap.first.reference", "The fitted model, which has one gap, gives {other}."},
     {"gap.model_free.first",
-     "The impacts alone read {other}: the first of several gaps in series, or a load that moved."},
+     "The impacts alone read {other}. Either there are several gaps in series, of which they see the first, or the "
+     "load moved: which of the two, a held output tells."},
     {"gap.reference.contradicts", "But the fitted model gives {other}."},
     {"gap.diagnosis.contradicts", "But the model that the diagnosis has fitted gives {other}."},
     {"gap.literal.reads", "S1 to S6 of the source paper read {other}, {apart} away from it."},
@@ -45,10 +46,13 @@ constexpr Wording kWordings[] = {
      "±{to_large} units of u."},
     {"lost_motion.grows", "", "What grows with the torque is wind-up, not a gap."},
     {"lost_motion.gap", "Most of it is a gap."},
-    {"lost_motion.friction", "It is friction and compliance."},
+    {"lost_motion.friction", "The lost motion is friction and compliance."},
     {"lost_motion.open",
      "How much of it is a gap, and how much friction and compliance, this recording does not show."},
-    {"gap.at_most", "The gap is at most {limit}."},
+    {"gap.at_most", "The gap is at most {limit}[, by the ramps to ±{by}]."},
+    {"gap.at_most.larger",
+     "The gap is at most {limit}, by the ramps to ±{by}: smaller ones need not have overcome the friction, and "
+     "bound nothing."},
     {"gap.at_most.if_any", "If there is one, it is at most {limit}.",
      "If there is one, it is at most {limit}, unless the load was faster than the motor."},
     {"gap.beyond_travel", "The motor moves by {travel} in all, so that nothing can be said of a gap."},
@@ -104,26 +108,29 @@ constexpr Wording kWordings[] = {
     {"error.fit.departs",
      "The fitted model, simulated freely, departs from the motion: fit {fit} (100 % is exact)."},
     {"error.fit.rejected", "It is rejected: its numbers are not to be used."},
+    {"error.fit.rejected.all_the_same",
+     "It is rejected all the same, as over a whole run a large motion hides what the model gets wrong from "
+     "sample to sample: its numbers are not to be used."},
     {"error.torque",
-     "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}, {share} of what the {source}.",
+     "The [{refitted} ]model[, with {has},] lacks {missing} rms of {torque}, {share} of what the {source}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data[ below {band} "
      "Hz], {share} of the {input} rms that the {source}."},
-    {"error.torque.alone", "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}.",
+    {"error.torque.alone", "The [{refitted} ]model[, with {has},] lacks {missing} rms of {torque}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data."},
     {"error.torque.many",
-     "The [{refitted} ]model[ ({has})] lacks {missing} rms of {torque}, {times} times what the {source}.",
+     "The [{refitted} ]model[, with {has},] lacks {missing} rms of {torque}, {times} times what the {source}.",
      "The [{refitted} ]model[ (with {has})] lacks {missing} rms of {torque} on held-out data, {times} times "
      "the {input} rms that the {source}."},
-    {"error.motion", "The [{refitted} ]model[ ({has})] is {off} off the held-out motion.",
+    {"error.motion", "The [{refitted} ]model[, with {has},] is {off} off the held-out motion.",
      "The [{refitted} ]model[ (with {has})] is {off} off the held-out motion[ ({measure})]."},
-    {"error.diverges", "The [{refitted} ]model[ ({has})] runs away from the held-out motion."},
-    {"error.noise", "That is noise.",
-     "That is noise: the simulated motion is {off} rms off, and the encoder's noise alone makes {floor} (up "
+    {"error.diverges", "The [{refitted} ]model[, with {has},] runs away from the held-out motion."},
+    {"error.noise", "That is within the noise.",
+     "That is within the noise: the simulated motion is {off} rms off, and the encoder's noise alone makes {floor} (up "
      "to {ratio} times as much counts as noise)."},
-    {"error.repeats", "That is noise.",
-     "That is noise: the simulated motion is {off} rms off, and the drive itself differs from period to "
+    {"error.repeats", "That is within the noise.",
+     "That is within the noise: the simulated motion is {off} rms off, and the drive itself differs from period to "
      "period by {floor} (up to {ratio} times as much counts as noise)."},
-    {"error.noise.torque", "That is noise."},
+    {"error.noise.torque", "That is within the noise."},
     {"error.floor.records", "",
      "The {parts} disagree by {floor} of this, which no one set of numbers removes."},
     {"error.floor.drive", "",
@@ -137,8 +144,8 @@ constexpr Wording kWordings[] = {
      "With the numbers of the configuration the {judged} motion runs away; refitted it is {before} off[, "
      "with the additions {after}][ ({measure})]."},
     {"error.free_run",
-     "Simulated from the first sample to the last it is up to {before} off, of {travel} of travel[; with "
-     "what helps, up to {after}][ ({rms} rms)]."},
+     "Simulated from the first sample to the last it drifts off by up to {before} (the travel is {travel})[; with "
+     "what helps, by up to {after}][ ({rms} rms)]."},
     {"error.free_run.diverges",
      "Simulated from the first sample to the last it runs away[; with what helps it is up to {after} off, of "
      "{travel} of travel][ ({rms} rms)]."},
@@ -147,13 +154,13 @@ constexpr Wording kWordings[] = {
      "helps it runs away."},
     {"error.free_run.grows", "", "Over so long a run the smallest errors grow."},
     {"error.closed_loop",
-     "With its controller in the loop it is {before} rms off in position[ (travel {travel})][; with what "
+     "With its controller in the loop it is {before} rms off in position[ (the travel is {travel})][; with what "
      "helps, {after}]."},
     {"error.closed_loop.diverges",
      "With its controller in the loop it runs away[; with what helps it is {after} rms off in position]."},
     {"error.fitted_loop",
-     "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average.",
-     "Fitted in the loop, as `fitted.yaml` is, it follows what was held out within {mae} on average (mean "
+     "`fitted.yaml` is fitted in that loop instead, and is {mae} off on average over what was held out.",
+     "`fitted.yaml` is fitted in that loop instead, and is {mae} off on average over what was held out (mean "
      "absolute error of the position over whole recordings)[; the worst of {count} is {worst} with {most}]."},
     {"tolerance.torque.within", "Within your tolerance of {limit}."},
     {"tolerance.torque.outside", "Outside your tolerance of {limit}."},

@@ -39,6 +39,7 @@ inline GapEstimate estimate(const RunResult& run) {
   g.lost_motion = {0.02 * kThird,
                    {0.019, 0.021},
                    0.022,
+                   1.2,
                    {{1.2, 0.02, {0.019, 0.021}, 9, 0.018 * kThird, 1e-3}},
                    LostMotionCause::kGap,
                    Remark::said("mostly a gap")};

@@ -86,10 +86,13 @@ struct LostMotion {
   double value = kNaN;                  ///< of all levels where they agree, else of the smallest torque [rad]
   Interval ci95;                        ///< [rad]
   double gap_limit = kNaN;              ///< no gap can be larger than this [rad]; NaN: no such limit
+  double limit_amplitude = kNaN;        ///< of the ramps that set this limit [unit of u]
   std::vector<LostMotionLevel> levels;  ///< by rising torque; empty: there is no loop
   LostMotionCause cause = LostMotionCause::kNotRead;
   Remark meaning;  ///< what speaks for the cause
   bool read() const { return !levels.empty(); }
+  /// By ramps larger than the smallest, which need not have overcome the friction.
+  bool limited_by_larger() const { return read() && limit_amplitude > levels.front().amplitude; }
   Interval range() const;  ///< smallest and largest of the levels [rad]
 };
 

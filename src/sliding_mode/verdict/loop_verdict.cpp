@@ -51,16 +51,21 @@ double limit_of(const TorqueLevel& level) {
   return level.runs_nowhere() ? std::min(most, level.shape.visible) : most;
 }
 
+struct GapLimit {
+  double gap = kInfinity, amplitude = kNaN;  ///< [rad]; of the ramps that set it [unit of u]
+};
+
 /// Limit on a gap from all levels. Ramps that do not overcome the friction pass no gap: where the levels
 /// disagree, those without a free run count only by the largest of them.
-double limit_of(Levels levels) {
+GapLimit limit_of(Levels levels) {
   const bool apart = any_disagree(levels);
-  double limit = kInfinity, largest = 0.0;
+  GapLimit least, largest{0.0};
   for (const TorqueLevel& level : levels) {
-    if (!apart || level.runs()) limit = std::min(limit, limit_of(level));
-    largest = std::max(largest, limit_of(level));
+    const GapLimit own{limit_of(level), level.amplitude};
+    if ((!apart || level.runs()) && own.gap < least.gap) least = own;
+    if (own.gap > largest.gap) largest = own;
   }
-  return std::isfinite(limit) ? limit : largest;
+  return std::isfinite(least.gap) ? least : largest;
 }
 
 /// Why levels without a play do not deny a gap; empty where they do.
@@ -124,8 +129,9 @@ LostMotion measured(Levels levels) {
   const double half = 1.0 / std::sqrt(weights);
   m.ci95 = {m.value - half, m.value + half};
   // A loop that u is late for bounds nothing.
-  const double limit = any(levels, &TorqueLevel::runs_backwards) ? kNaN : limit_of(levels);
-  if (std::isfinite(limit)) m.gap_limit = limit;
+  const GapLimit limit = limit_of(levels);
+  if (std::isfinite(limit.gap) && !any(levels, &TorqueLevel::runs_backwards))
+    m.gap_limit = limit.gap, m.limit_amplitude = limit.amplitude;
   return m;
 }
 
