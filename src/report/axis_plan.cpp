@@ -153,9 +153,8 @@ Margins side_margins(const Panel& panel, const Typesetter& typesetter) {
   for (const std::string& remark : panel.y.remarks)
     margins.right = std::max(margins.right, typesetter.measure(remark, kTextSize).width + 2 * kSpace);
   for (const Dimension& dimension : panel.dimensions)
-    if (std::isnan(dimension.at))
-      margins.right = std::max(margins.right,
-                               4 * kSpace + typesetter.measure(dimension.label, kTextSize).height() + kSpace);
+    margins.right = std::max(margins.right,
+                             4 * kSpace + typesetter.measure(dimension.label, kTextSize).height() + kSpace);
   return margins;
 }
 

@@ -101,20 +101,15 @@ class PanelPainter {
 
   void dimensions() {
     for (const Dimension& dimension : panel_.dimensions) {
-      const bool inside = !std::isnan(dimension.at);
-      const double x = inside ? x_of(dimension.at) : frame_.right() + 2 * kSpace;
+      const double x = frame_.right() + 2 * kSpace;
       const double low = y_of(dimension.range.low), high = y_of(dimension.range.high);
-      const LineStyle ink{kInk, inside ? 4.0 : 2.5, {}};
-      for (const double y : {low, high})
-        canvas_.line({{inside ? x - kSpace : frame_.right(), y}, {x + kSpace, y}}, ink);
+      const LineStyle ink{kInk, 2.5, {}};
+      for (const double y : {low, high}) canvas_.line({{frame_.right(), y}, {x + kSpace, y}}, ink);
       canvas_.line({{x, low}, {x, high}}, ink);
       const double inwards = std::abs(low - high) > 60.0 ? 1.0 : -1.0;  // a small one is held from outside
       arrow({x, std::max(low, high)}, -inwards);
       arrow({x, std::min(low, high)}, inwards);
-      if (inside)
-        beside(x, {std::min(low, high), std::max(low, high)}, dimension.label);
-      else
-        at_the_right(x, (low + high) / 2, dimension.label);
+      at_the_right(x, (low + high) / 2, dimension.label);
     }
   }
 
@@ -131,38 +126,6 @@ class PanelPainter {
         std::clamp(centre, frame_.y + half, std::max(frame_.y + half, frame_.bottom() - half));
     canvas_.text({x + 2 * kSpace + metrics.ascent, middle}, label,
                  {kTextSize, Align::kCentre, kInk, false, true});
-  }
-
-  /// At a side of an arrow where no curve passes, lying or upright; where there is none on white paper, over
-  /// what is drawn there.
-  void beside(double x, const Interval& arrow, const std::string& label) {
-    const TextMetrics metrics = typesetter_.measure(label, kTextSize);
-    const double length = metrics.width + kSpace, height = metrics.height() + kSpace;
-    std::optional<Box> place;
-    bool upright = false;
-    for (const bool standing : {false, true})
-      for (const double share : {0.5, 0.25, 0.75})
-        for (const double side : {1.0, -1.0}) {
-          const double wide = standing ? height : length, tall = standing ? length : height;
-          const double middle = arrow.low + share * (arrow.high - arrow.low);
-          const Box box{side > 0.0 ? x + kSpace : x - kSpace - wide, middle - tall / 2, wide, tall};
-          if (!place && frame_.holds(box) && is_free(box)) place = box, upright = standing;
-        }
-    const Box at = place.value_or(Box{x + kSpace, (arrow.low + arrow.high - height) / 2, length, height});
-    canvas_.fill(at, {255, 255, 255});
-    if (upright)
-      canvas_.text({at.x + kSpace / 2 + metrics.ascent, at.centre().y}, label,
-                   {kTextSize, Align::kCentre, kInk, false, true});
-    else
-      canvas_.text({at.x + kSpace / 2, at.y + kSpace / 2 + metrics.ascent}, label, {kTextSize});
-  }
-
-  bool is_free(const Box& box) const {
-    const Box here{box.x - frame_.x, box.y - frame_.y, box.width, box.height};
-    for (const Series& s : panel_.series)
-      for (const Polyline& line : polylines_of(s, plan_))
-        if (meets(line, here)) return false;
-    return true;
   }
 
   void vertical(double x, const LineStyle& style) {

@@ -37,11 +37,10 @@ struct Band {
   std::string label{};  ///< in the legend
 };
 
-/// A dimension as in a drawing: at the right of the frame, or within it where `at` says so.
+/// A dimension as in a drawing, at the right of the frame.
 struct Dimension {
   Interval range{};
   std::string label{};
-  double at = kNaN;  ///< x of its arrow; NaN: at the right of the frame
 };
 
 /// A named place on an axis.

@@ -158,8 +158,7 @@ void add_play(const LoopFigure& f, Panel& panel) {
   const double middle = 0.5 * (up + down), half = 0.5 * std::abs(f.lost_motion.levels.front().lost_motion);
   panel.dimensions.push_back(
       {{middle - half, middle + half},
-       "play " + quantity(f.lost_motion.levels.front().lost_motion, f.view.length_unit),
-       0.0});
+       "play " + quantity(f.lost_motion.levels.front().lost_motion, f.view.length_unit)});
   for (const double y : {middle - half, middle + half}) panel.y_marks.push_back({y, guide_style(), ""});
 }
 

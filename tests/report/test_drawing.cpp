@@ -135,27 +135,6 @@ TEST(Drawing, BreaksNoTitleThatHasRoomBesideTheFrame) {
   EXPECT_EQ(drawing.plans[0].title.size(), 1u);
 }
 
-/// A branch of a loop runs where the label would lie: it stands upright instead, or at the other side.
-TEST(Drawing, PutsTheLabelOfADimensionWhereNoCurvePasses) {
-  for (const double branch : {0.1, 0.35}) {
-    FigureData figure;
-    figure.title = "t";
-    Panel& panel = figure.panels.emplace_back();
-    panel.x = {"x", "", {-1.0, 1.0}, {}, {}};
-    panel.y = {"y", "", {-1.0, 1.0}, {}, {}};
-    panel.series.push_back({"", {kBlue, 4.0, {}}, {branch, branch}, {-0.9, 0.9}});
-    panel.dimensions.push_back({{-0.9, 0.9}, "play 10.1 mrad", 0.0});
-    const Drawing drawing = draw_with_notes(figure);
-    const Box frame = drawing.frames[0];
-    for (const DrawnText& text : drawing.texts) {
-      if (text.markup != "play 10.1 mrad") continue;
-      const Box here{text.box.x - frame.x, text.box.y - frame.y, text.box.width, text.box.height};
-      for (const Polyline& line : polylines_of(panel.series[0], drawing.plans[0]))
-        EXPECT_FALSE(meets(line, here)) << branch;
-    }
-  }
-}
-
 TEST(Drawing, PutsDataWhereTheAxesSay) {
   // One black disc in the middle of the axes must be in the middle of the frame.
   FigureData figure;
