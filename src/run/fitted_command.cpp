@@ -148,18 +148,16 @@ SettledController settle_controller(const Configuration& c, std::vector<Recordin
   const DriveController controller = fitted_controller(*c.controller, found);
   command_anew(controller, fitted);
   command_anew(controller, held_out);
-  const std::string numbers = fmt::format("{}{}", numbers_told(found, Standing::kStands),
-                                          found.converged() ? "" : " (the fit has not converged)");
   if (!is_determined(found))
     return {controller,
             {},
             "the recordings do not determine the controller that was to be estimated, and the diagnosis "
             "holds what a fit of the model as it is came to, all torques in proportion: " +
-                numbers + confounded_with(found, c.coordinates)};
-  return {
-      controller, starting_at(*c.controller, controller),
-      "the controller is estimated again with each step of the diagnosis; fitted with the model as it is: " +
-          numbers};
+                numbers_told(found, Standing::kStands) +
+                (found.converged() ? "" : " (the fit has not converged)") +
+                confounded_with(found, c.coordinates)};
+  return {controller, starting_at(*c.controller, controller),
+          ""};  // told of the last fit, with each step anew
 }
 
 std::string controller_found(const Configuration& c, const Diagnosis& d,
@@ -168,8 +166,8 @@ std::string controller_found(const Configuration& c, const Diagnosis& d,
   const std::vector<MotorTrace> fitted = motor_traces(recordings);
   const FitSummary found = fit(fitted, d.fitted, c.fit);
   if (found.status == FitStatus::kFailed) return {};
-  const std::string when = d.effects.empty() ? "the controller, as nothing was added: "
-                                             : "the controller with what the diagnosis has added: ";
+  const std::string when = d.effects.empty() ? "the controller, fitted with the model as it is: "
+                                             : "the controller, fitted with what the diagnosis has added: ";
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   return when + numbers_told(found, unknown ? Standing::kUnestablished : Standing::kStands) +
          "; these are of a last fit" + (unknown ? "" : ", which has their intervals") +

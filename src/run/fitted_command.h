@@ -16,7 +16,8 @@ void command_anew(const DriveController& controller, std::vector<Recording>& rec
 struct SettledController {
   std::optional<DriveController> known;   ///< that made the inputs; none: they were recorded
   std::optional<ControllerModel> sought;  ///< each step of the diagnosis estimates it anew, from here
-  std::string said;                       ///< what was found, in words; empty: nothing is to be estimated
+  std::string said;  ///< that nothing determines it, in words; empty: it is, or nothing is to
+                     ///< be estimated
 };
 
 /// Where the controller has numbers to be estimated: they are fitted with the model as it is to the first

@@ -62,7 +62,7 @@ std::string said_of_gain(const std::vector<std::string>& candidates) {
 
 TEST(WithheldGain, IsFoundWithWhatTheDiagnosisHasAdded) {
   const std::string said = said_of_gain({"motor_coulomb_friction", "quadratic_drag"});
-  EXPECT_THAT(said, HasSubstr("with what the diagnosis has added"));
+  EXPECT_THAT(said, HasSubstr("fitted with what the diagnosis has added"));
   EXPECT_THAT(said, Not(HasSubstr("confounded")));
   EXPECT_THAT(said, HasSubstr("; these are of a last fit, which has their intervals, and `fitted.yaml` has "
                               "controller.velocity.gain "));
