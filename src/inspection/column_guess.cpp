@@ -102,6 +102,15 @@ std::string by_name(const Seen& seen, ColumnRole role, const std::string& beside
   return best;
 }
 
+/// Whether a column stays at a level, as a supply's voltage does beside the goal that a servo follows.
+bool stays(const Seen& seen, const std::string& name) {
+  constexpr double kStays = 0.1;  ///< of the level: what a load takes of a supply
+  const auto x = seen.is_text ? numbers_of(seen.form, place_in(seen.form, name)) : std::vector<double>();
+  if (x.empty()) return false;
+  const auto [low, high] = std::ranges::minmax(x);
+  return high - low < kStays * std::abs(low);
+}
+
 /// Whether numbers go on by nearly the same, which positions and torques seldom do.
 bool are_even(const std::vector<double>& x) {
   constexpr double kEven = 0.2;  ///< of the median step: what clocks of loggers jitter
@@ -276,7 +285,11 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
   if (guess.speed.empty()) take(guess.position, ColumnRole::kPosition, "position", guess.input);
   if (guess.position.empty()) take(guess.speed, ColumnRole::kSpeed, "speed", guess.input);
   const std::string& beside = guess.position.empty() ? guess.speed : guess.position;
-  if (guess.target.empty()) take(guess.input, ColumnRole::kInput, "input", beside);
+  if (guess.target.empty() && guess.input.empty()) {
+    const std::string input = by_name(seen, ColumnRole::kInput, beside, taken());
+    const std::string target = by_name(seen, ColumnRole::kTarget, beside, taken());
+    if (target.empty() || !stays(seen, input)) take(guess.input, ColumnRole::kInput, "input", beside);
+  }
   if (guess.input.empty()) take(guess.target, ColumnRole::kTarget, "target", beside);
   if (!rated && guess.time.empty())
     refuse(path, seen, "time", "--time NAME, or --rate HZ where there is none");

@@ -270,6 +270,24 @@ TEST(TableForm, TopicsThatAlternateMeetAtTheRowsOfThePosition) {
   }
 }
 
+/// A servo's log has the voltage of its supply, which is no input, beside the goal that it follows.
+TEST(TableForm, ASupplyIsNoInputBesideAGoal) {
+  const auto log = [](bool goal, double swing) {
+    return std::string(goal ? "t,goal" : "t,rest") + ",x1,volts\n" + lines([&](int i) {
+             return fmt::format("{:.4f},{:.8f},{:.8f},{:.3f}", kLogStep * i, 1.1 * position_at(i),
+                                position_at(i), 12.0 - swing * (1.0 + std::sin(0.05 * i)));
+           });
+  };
+  const auto guessed = [](const std::string& text) {
+    const TemporaryFile file(text);
+    return guess_columns(file.path(), {}, false);
+  };
+  EXPECT_EQ(guessed(log(true, 0.1)).target, "goal");
+  EXPECT_EQ(guessed(log(true, 0.1)).input, "");
+  EXPECT_EQ(guessed(log(true, 12.0)).input, "volts") << "what drives goes to and fro";
+  EXPECT_EQ(guessed(log(false, 0.1)).input, "volts") << "there is nothing else";
+}
+
 TEST(TableForm, ASpeedInPlaceOfAPositionIsIntegrated) {
   const TemporaryFile file("time_s,torque_Nm,speed_rpm\n" + lines([](int i) {
                              return fmt::format("{:.4f},{:.8f},{:.8f}", kLogStep * i, input_at(i),
