@@ -103,7 +103,8 @@ TEST(Init, AServoThatTakesGoalsMayHaveAGainThatNobodyKnows) {
   place.file("servo.csv", text);
   const std::string init = "init servo.csv --model one_body --target goal";
   EXPECT_THAT(place.run(init).err, HasSubstr("or --controller-gain estimate where nobody knows it"));
-  EXPECT_THAT(place.run("init servo.csv --controller-gain 2").err, HasSubstr("is given without --target"));
+  EXPECT_EQ(place.run("init servo.csv --controller-gain 2 -o found.yaml").status, 0);
+  EXPECT_THAT(testing::text_of(place.folder() / "found.yaml"), HasSubstr("target: \"goal\"")) << "no supply";
   EXPECT_EQ(place.run(init + " --controller-gain much").status, 2);
   const auto known = place.run(init + " --controller-gain estimate --mass 0.5 --arm 0.1 -o servo.yaml");
   EXPECT_EQ(known.status, 0) << known.err;
