@@ -37,6 +37,19 @@ Interval widened(const Interval& i, double value, double half) {
   return {value - std::hypot(value - i.low, half), value + std::hypot(i.high - value, half)};
 }
 
+/// In the units of the numbers instead of the solver's.
+std::vector<FitPiece> in_units(const FitProblem& problem, const FitPoint& at, std::vector<FitPiece> pieces) {
+  std::vector<double> per_unit;
+  for (std::size_t i = 0; i < problem.free_count(); ++i)
+    per_unit.push_back(1.0 / problem.free_parameter(i).coordinate.slope(at.q[i]));
+  for (FitPiece& p : pieces)
+    for (std::size_t i = 0, k = 0; i < per_unit.size(); ++i) {
+      p.slope[i] *= per_unit[i];
+      for (std::size_t j = 0; j <= i; ++j, ++k) p.normal[k] *= per_unit[i] * per_unit[j];
+    }
+  return pieces;
+}
+
 /// @returns the simulations that profiles took
 double report_parameters(const FitProblem& problem, const FitOutcome& outcome, FitSummary& summary) {
   double simulations = 0.0;
@@ -136,6 +149,7 @@ FitSummary fit(std::span<const MotorTrace> recordings, const ReferenceModel& mod
     summary.message = outcome.solution.converged ? Remark() : words::iterations_ran_out();
     summary.warnings = outcome.warnings;
     simulations += outcome.simulations + report_parameters(problem, outcome, summary);
+    summary.pieces = in_units(problem, outcome.solution, outcome.information.pieces);
     tell_structure(problem, outcome, summary);
     report_motion(problem, outcome, summary);
     simulations += kSimulationsPerTrace * static_cast<double>(summary.traces.size());

@@ -9,6 +9,7 @@ namespace {
 constexpr int kWindows = 24;  ///< the recordings are cut into about so many, for the scatter of scores
 constexpr int kPlaces = 55;   ///< of the counts under the motion that are tried, on a lattice with
 constexpr int kLattice = 34;  ///< this generator: both are Fibonacci numbers
+constexpr int kPieces = 4;    ///< fewest, to leave one out: fewer recordings are cut
 constexpr std::size_t kMostLags = 2000;
 /// For a derivative: small beside a row, large beside rounding [rows]. Half and double change intervals of
 /// `study_rows 3001 3003 FOLDER run`, as recorded and every second row, by less than 1 %.
@@ -217,6 +218,48 @@ void add_up(const FitProblem& problem, const std::vector<Part>& parts, Eigen::In
   sum.inflation = inflation_of(parts);
 }
 
+/// Takes out of the derivatives by the shared numbers, and of the residuals, what the initial state follows.
+void let_state_follow(Eigen::Index shared, Part& part) {
+  const Eigen::Index states = part.jacobian.cols() - shared;
+  if (states == 0) return;
+  const Eigen::MatrixXd by_state = part.jacobian.rightCols(states);
+  Eigen::MatrixXd square = by_state.transpose() * by_state;
+  square.diagonal().array() += kStateSlope * kStateSlope;
+  const Eigen::LDLT<Eigen::MatrixXd> inverse(square);
+  const Eigen::MatrixXd follows = inverse.solve(by_state.transpose() * part.jacobian.leftCols(shared));
+  part.residuals -= by_state * inverse.solve(by_state.transpose() * part.residuals);
+  part.jacobian.leftCols(shared) -= by_state * follows;
+}
+
+FitPiece piece_of(const Part& part, Eigen::Index shared, Eigen::Index first, Eigen::Index size) {
+  const Eigen::MatrixXd by = part.jacobian.block(first, 0, size, shared);
+  const Eigen::VectorXd left = part.residuals.segment(first, size);
+  const Eigen::MatrixXd normal = by.transpose() * by;
+  const Eigen::VectorXd slope = by.transpose() * left;
+  FitPiece piece;
+  piece.samples = static_cast<int>(size);
+  piece.square = left.squaredNorm();
+  piece.slope.assign(slope.begin(), slope.end());
+  for (Eigen::Index i = 0; i < shared; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) piece.normal.push_back(normal(i, j));
+  return piece;
+}
+
+std::vector<FitPiece> pieces_of(const Cost& cost, std::vector<Part> parts) {
+  std::vector<FitPiece> pieces;
+  const Eigen::Index each = std::max<Eigen::Index>(1, (kPieces + std::ssize(parts) - 1) / std::ssize(parts));
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    let_state_follow(cost.shared(), parts[r]);
+    const Eigen::Index samples = cost.samples(r);
+    for (Eigen::Index k = 0; k < each; ++k) {
+      const Eigen::Index first = k * samples / each, end = (k + 1) * samples / each;
+      pieces.push_back(piece_of(parts[r], cost.shared(), first, end - first));
+      pieces.back().recording = static_cast<int>(r);
+    }
+  }
+  return pieces;
+}
+
 /// Half of the slope of the cost along each column.
 Eigen::VectorXd score_of(const Cost& cost, const Cost::Vector& x, const std::vector<Part>& parts) {
   Eigen::VectorXd score = Eigen::VectorXd::Zero(cost.size() + 1);
@@ -278,6 +321,7 @@ Information information_at(const FitProblem& problem, const FitPoint& at, double
   std::vector<Part> parts = parts_at(cost, x, information.simulations);
   if (parts.empty()) return information;
   const Eigen::Index n = cost.size();
+  information.pieces = pieces_of(cost, parts);
   const bool timed = add_delay(problem, at, observer_hz, parts, information.simulations);
   add_up(problem, parts, timed ? n + 1 : n, information);
   for (Eigen::Index i = 0; i < n; ++i) information.normal(i, i) += cost.beside_curvature(i, x[i]);

@@ -31,7 +31,8 @@ struct Information {
   InputTiming timing;
   Eigen::VectorXd by_timing;  ///< how the numbers follow it at the least cost [1/row]; empty: it is not known
   int window_count = 0;
-  double simulations = 0.0;  ///< spent on it
+  std::vector<FitPiece> pieces;  ///< by the free numbers in solver units
+  double simulations = 0.0;      ///< spent on it
 };
 
 /// By plain runs; NaN where the motion diverges.

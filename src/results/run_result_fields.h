@@ -153,6 +153,15 @@ void fields(Archive& archive, FittedStart& s) {
 }
 
 template <class Archive>
+void fields(Archive& archive, FitPiece& p) {
+  archive("recording", p.recording);
+  archive("samples", p.samples);
+  archive("square", p.square);
+  archive("slope", p.slope);
+  archive("normal", p.normal);
+}
+
+template <class Archive>
 void fields(Archive& archive, ModeError& m) {
   archive.choice("mode", m.mode,
                  Words<Mode>{{Mode::kGap, "gap"},
@@ -215,6 +224,7 @@ void fields(Archive& archive, FitSummary& f) {
   archive("start_costs", f.start_costs);
   archive.list("mode_errors", f.mode_errors);
   archive.list("initial_states", f.initial_states);
+  archive.added_list("pieces", f.pieces);
   archive("advice", f.advice);
   archive("warnings", f.warnings);
 }

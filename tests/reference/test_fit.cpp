@@ -51,10 +51,27 @@ TEST(Fit, RecoversThePaperRigFromPerfectAndPerturbedStarts) {
   }
 }
 
+/// Four parts of the one recording, which together are as far from their minimum as the errors say.
+void expect_pieces(const FitSummary& summary, std::size_t samples) {
+  ASSERT_EQ(summary.pieces.size(), 4u);
+  double square = 0.0, of_gap = 0.0;
+  std::size_t all = 0;
+  for (const FitPiece& p : summary.pieces) {
+    ASSERT_EQ(p.normal.size(),
+              6u);  // of three numbers; that of the gap, the third as the YAML has them, is last
+    square += p.square, of_gap += p.normal.back(), all += static_cast<std::size_t>(p.samples);
+  }
+  EXPECT_EQ(all, samples);
+  EXPECT_NEAR(square / static_cast<double>(all), std::pow(summary.rmse / summary.floor, 2), 1e-3);
+  EXPECT_LT(1.0 / std::sqrt(of_gap), summary.find("gap")->std);  // all others known, residuals of one floor
+}
+
 TEST(Fit, RecoversGapDampingAndMassRatioOfWhichNothingWasSaid) {
   ReferenceModel model = known_model({});
   for (const int n : {kGap, kMotorDamping, kMassRatio}) estimate(model, n);
-  expect_truth(fit_one(paper_recording(), model));
+  const FitSummary summary = fit_one(paper_recording(), model);
+  expect_truth(summary);
+  expect_pieces(summary, paper_recording().size());
 }
 
 /// Where the search was stopped its curvature says nothing of how far the minimum is.

@@ -84,6 +84,7 @@ inline FitSummary summary(const RunResult& run) {
   trace.x1 = run.recordings[1].u;
   trace.predicted = run.recordings[1].x1;
   f.mode_errors = {{Mode::kGap, 12, kThird}, {Mode::kEngagementMinus, 0, kNaN}};
+  f.pieces = {{1, 100, 90.0 * kThird, {kThird, -2.0}, {1e20 * kThird, -1.0, 4.0}}};
   f.start_costs = {kThird, 2.0, kNaN};
   f.warnings = {Remark::said("advice")};
   return f;

@@ -94,6 +94,18 @@ struct FitStructure {
   double gap_low = kNaN, gap_high = kNaN;  ///< smallest and largest gap by them [rad]
 };
 
+/// What a piece of the recordings says of the estimated numbers, n of them in their order, near their values
+/// v: what the model leaves there is square + 2 slope·d + dᵀ normal d [floor²] at v + d, the initial state of
+/// each recording following. All pieces together are all recordings, each a whole one or cut into equal
+/// parts.
+struct FitPiece {
+  int recording = 0;
+  int samples = 0;
+  double square = kNaN;
+  std::vector<double> slope;   ///< [floor² per unit of the number] (n)
+  std::vector<double> normal;  ///< lower triangle, row by row [floor² per unit of either] (n (n + 1)/2)
+};
+
 /// What the model-based reference says. A default-built one says that it was not run.
 struct FitSummary {
   FitStatus status = FitStatus::kNotRun;
@@ -117,6 +129,7 @@ struct FitSummary {
   std::vector<FittedParameter> parameters;  ///< estimated and fixed, in the order of the YAML keys
   std::optional<FitStructure> structure;    ///< nothing where no other law was tried
   std::vector<FittedStart> initial_states;  ///< one per recording
+  std::vector<FitPiece> pieces;             ///< empty where the motion diverges
   std::vector<FitTrace> traces;
   std::vector<ModeError> mode_errors;
   std::vector<double> start_costs;  ///< final cost of each start, best first (waterfall)
