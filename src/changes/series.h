@@ -14,9 +14,9 @@ inline constexpr int kFewestInOrder = 4;
 /// places together. Errors are those of the reports, or what neighbours in time differ by where that is more.
 std::vector<QuantityCourse> courses(const DriveChanges& all);
 
-/// Units that are unlike the others, in a quantity of which enough have a value: by Student's t against mean
-/// and spread of the others, or their errors where these are more, 5 % for all units and quantities together.
-/// The farthest first.
+/// Units that are unlike the others, in a quantity of which enough have a value: by Student's t against the
+/// others, whose mean and spread are estimated knowing the error of each: what is measured well counts more,
+/// and errors are no spread. 5 % for all units and quantities together. The farthest first.
 std::vector<OddUnit> odd_units(const DriveChanges& all);
 
 }  // namespace gapscope::internal::changes
