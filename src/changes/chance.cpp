@@ -15,6 +15,13 @@ double two_sided_quantile(double p) {
   return 0.5 * (low + high);
 }
 
+double squares_beyond(double sum, double freedom) {
+  if (freedom < 0.5) return 1.0;
+  if (freedom < 1.5) return normal_beyond(std::sqrt(sum));
+  const double spread = 2.0 / (9.0 * freedom);
+  return 0.5 * std::erfc((std::cbrt(sum / freedom) - 1.0 + spread) / std::sqrt(2.0 * spread));
+}
+
 double normal_of_student(double t, double freedom) {
   const double size = std::sqrt(freedom * std::log1p(t * t / freedom));
   return std::copysign((8.0 * freedom + 1.0) / (8.0 * freedom + 3.0) * size, t);

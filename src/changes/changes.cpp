@@ -56,9 +56,12 @@ double by_other_torque(const DriveReport& first, const DriveReport& now, double 
   return std::abs(ratio * ratio - 1.0) * std::min(without_gap(*a), without_gap(*b));
 }
 
-void take_differences(std::span<const DriveReport> reports, DriveQuantity& q) {
+void take_differences(std::span<const DriveReport> reports, const std::vector<WhichDiffers>& which,
+                      DriveQuantity& q) {
   for (std::size_t i = 1; i < reports.size(); ++i) {
     Change c = change_between(q.observed.front(), q.observed[i]);
+    const bool told = c.reason != ChangeReason::kUntold && q.from == "reference";
+    if (told && which[i - 1].verdict == WhichVerdict::kStructure) c.reason = ChangeReason::kTheModel;
     if (q.key == "lost_motion") c.by_recordings = by_other_torque(reports.front(), reports[i], q.level);
     q.changes.push_back(c);
   }
@@ -91,6 +94,8 @@ void put_first_first(DriveChanges& all) {
     all.codes.push_back(fmt::format("changed.{}.{}.{}", q.from, q.key, rose ? "rose" : "fell"));
   }
   if (!changed.empty()) all.lead = changed.front();
+  if (const WhichDiffers& w = all.which.back(); w.verdict == WhichVerdict::kStructure)
+    all.codes.emplace_back(w.left_now > w.left_first ? "came.unmodelled" : "went.unmodelled");
   for (const QuantityCourse& c : all.courses)
     if (c.since >= 0)
       all.codes.push_back(fmt::format("since.{}.{}.{}", c.from, c.key, c.after > c.before ? "rose" : "fell"));
@@ -127,11 +132,11 @@ DriveChanges changes(std::span<const DriveReport> reports, ReportOrder order) {
   all.input_unit = input_unit_of(reports);
   for (const DriveReport& r : reports) all.reports.push_back(r.folder);
   all.quantities = internal::changes::observed_quantities(reports);
-  for (DriveQuantity& q : all.quantities) take_differences(reports, q);
-  internal::changes::give_verdicts(all, tolerance_of(reports));
-  all.order = order;
   for (std::size_t i = 1; i < reports.size(); ++i)
     all.which.push_back(internal::changes::which_differs(reports.front(), reports[i]));
+  for (DriveQuantity& q : all.quantities) take_differences(reports, all.which, q);
+  internal::changes::give_verdicts(all, tolerance_of(reports));
+  all.order = order;
   if (order == ReportOrder::kInTime) all.courses = internal::changes::courses(all);
   if (order == ReportOrder::kUnits) all.odd = internal::changes::odd_units(all);
   put_first_first(all);

@@ -78,7 +78,8 @@ void decide(const DriveQuantity& q, std::size_t i, double quantile, std::optiona
 }
 
 bool comparable(const Change& c) {
-  return c.reason != ChangeReason::kUntold && c.reason != ChangeReason::kNoInterval;
+  return c.reason != ChangeReason::kUntold && c.reason != ChangeReason::kNoInterval &&
+         c.reason != ChangeReason::kTheModel;
 }
 
 }  // namespace

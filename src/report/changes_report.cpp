@@ -61,7 +61,8 @@ bool is_code(const DriveChanges& all, const char* kind) {
 
 /// The picture carries the answer; the badge says how far it goes.
 PageHead page_head(const DriveChanges& all, const FigureData& figure) {
-  const bool changed = is_code(all, "changed.") || is_code(all, "since.") || is_code(all, "odd.");
+  const bool changed = is_code(all, "changed.") || is_code(all, "since.") || is_code(all, "came.") ||
+                       is_code(all, "went.") || is_code(all, "odd.");
   PageHead head{"What changed", fmt::format("{} reports, gapscope {}", all.reports.size(), all.version)};
   head.badges.push_back(changed ? Badge{"good", "changed"} : Badge{"open", "no change seen"});
   if (figure.missing.empty()) head.carrying = figure.file;

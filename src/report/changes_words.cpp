@@ -34,6 +34,8 @@ std::string why_open(const Change& c) {
       return "not in both";
     case ChangeReason::kNoInterval:
       return "without an interval";
+    case ChangeReason::kTheModel:
+      return "in one acts what the model lacks, which moves every fitted number";
     case ChangeReason::kTheRecordings:
       return "the recordings differ by as much as explains it";
     default:
@@ -101,6 +103,40 @@ std::string changed_sentence(const DriveChanges& all, const DriveQuantity& q) {
                      observed_text(q.observed.front(), unit), observed_text(q.observed.back(), unit), size);
 }
 
+/// What may explain that which no number must.
+std::string rest_text(const WhichDiffers& w) {
+  if (w.one_of.empty()) return ", which no one number explains";
+  if (w.one_of.size() == 1) return fmt::format(", which {} alone explains", w.one_of.front());
+  return fmt::format(", which any one of {} explains: the recordings do not tell them apart",
+                     fmt::join(w.one_of, ", "));
+}
+
+/// ". A joint fit with all numbers alike is off by 14 encoder floors ..."
+std::string held_out_text(const WhichDiffers& w) {
+  if (!std::isfinite(w.off_shared) || !std::isfinite(w.off_named)) return "";
+  std::string text = fmt::format(
+      ". On what it has not seen, a joint fit of both with all numbers alike is off by {:.3g} encoder floors",
+      w.off_shared);
+  if (!w.numbers.empty()) text += fmt::format(", with what is named free by {:.3g}", w.off_named);
+  return text + fmt::format(", with all of them free by {:.3g}", w.off_free);
+}
+
+/// Of what acts in one of the two, and in no model.
+std::string structure_text(const DriveChanges& all) {
+  const WhichDiffers& w = all.which.back();
+  const bool came = w.left_now > w.left_first;
+  return fmt::format(
+      "In {} acts what the model lacks: it leaves {:.3g} encoder floors there, {:.3g} in {}. `gapscope diagnose` "
+      "of that one names it; until then its fitted numbers say nothing of what changed",
+      came ? all.reports.back() : all.reports.front(), came ? w.left_now : w.left_first,
+      came ? w.left_first : w.left_now, came ? all.reports.front() : all.reports.back());
+}
+
+bool differs_in_structure(const DriveChanges& all) {
+  return all.order == ReportOrder::kInTime && !all.which.empty() &&
+         all.which.back().verdict == WhichVerdict::kStructure;
+}
+
 int count(const DriveChanges& all, ChangeVerdict verdict) {
   int n = 0;
   for (const DriveQuantity& q : all.quantities)
@@ -158,6 +194,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& folders) {
 }
 
 std::string changes_headline(const DriveChanges& all) {
+  if (all.lead < 0 && differs_in_structure(all)) return structure_text(all);
   if (all.compared == 0)
     return "Nothing to compare: no quantity is given both in " + all.reports.front() +
            " and in another report";
@@ -177,13 +214,18 @@ std::string changes_headline(const DriveChanges& all) {
 std::string which_text(const DriveChanges& all) {
   if (all.which.empty() || all.order == ReportOrder::kUnits) return "";
   const WhichDiffers& w = all.which.back();
-  const std::size_t others = w.compared.size() - std::min(w.compared.size(), w.numbers.size());
+  if (all.lead < 0 && differs_in_structure(all)) return "";  // which is the headline
   switch (w.verdict) {
     case WhichVerdict::kNotAsked:
       return "";
     case WhichVerdict::kNone:
-      return fmt::format("By the fits none of {} numbers need differ", w.compared.size());
+      return fmt::format("By the fits none of {} numbers need differ", w.compared.size()) + held_out_text(w);
+    case WhichVerdict::kStructure:
+      return structure_text(all);
+    case WhichVerdict::kUntold:
+      return "By the fits taken together something differs" + rest_text(w) + held_out_text(w);
     case WhichVerdict::kNamed:
+    case WhichVerdict::kMore:
       break;
   }
   std::string text;
@@ -193,7 +235,10 @@ std::string which_text(const DriveChanges& all) {
     if (!n.look_alikes.empty())
       text += fmt::format(" (or {}, which acts alike and is in neither fit)", fmt::join(n.look_alikes, ", "));
   }
-  return text + fmt::format("; the other {} numbers need not", others);
+  const std::size_t others = w.compared.size() - std::min(w.compared.size(), w.numbers.size());
+  text += w.verdict == WhichVerdict::kMore ? ", and something besides" + rest_text(w)
+                                           : fmt::format("; the other {} numbers need not", others);
+  return text + held_out_text(w);
 }
 
 std::vector<std::string> order_lines(const DriveChanges& all) {

@@ -32,6 +32,7 @@ enum class ChangeReason {
   kWithin,         ///< all that the errors leave room for is within the tolerance
   kTooWide,        ///< the errors leave room for no change and for one that matters
   kTheRecordings,  ///< beyond the errors, but the recordings differ by as much as explains it
+  kTheModel,       ///< in one of the two acts what the model lacks, which moves every number of its fit
 };
 
 const char* to_string(ChangeVerdict verdict);  ///< "open", "same", "changed"
@@ -68,7 +69,14 @@ struct DrivenLoop {
 };
 
 /// What the fits of two reports say of which numbers differ; not asked: not two fits that can be relied on.
-enum class WhichVerdict { kNotAsked, kNone, kNamed };
+enum class WhichVerdict {
+  kNotAsked,
+  kNone,
+  kNamed,
+  kMore,       ///< something besides the named numbers differs, too
+  kUntold,     ///< something differs, and no number can be named
+  kStructure,  ///< in one of them acts what no model has, so its numbers say nothing of the other's
+};
 
 /// A number that must differ, and what acts alike and is in neither fit: one of them may in its place.
 struct DifferingNumber {
@@ -79,9 +87,15 @@ struct DifferingNumber {
 
 struct WhichDiffers {
   WhichVerdict verdict = WhichVerdict::kNotAsked;
-  std::vector<DifferingNumber> numbers;  ///< the surest first
+  std::vector<DifferingNumber> numbers;  ///< that must differ, the surest first
+  std::vector<std::string> one_of;    ///< beside those named more differs: any one of these alone explains it
   std::vector<std::string> compared;  ///< numbers that both fits determine; those not named need not differ
-  double p_same = kNaN;               ///< that none differs: the least p times their count, at most 1
+  double p_same = kNaN;               ///< of two groups so far apart, were none to differ [-]
+  double p_rest = kNaN;               ///< the same, were none but `numbers` to differ [-]
+  /// What recordings that a joint fit has not seen are off by, rms [floor], where it shares all numbers,
+  /// where those named may differ, and where all may; NaN: it was not tried.
+  double off_shared = kNaN, off_named = kNaN, off_free = kNaN;
+  double left_first = kNaN, left_now = kNaN;  ///< what each fit leaves of its own recordings [floor]
 };
 
 /// A quantity in the order of the reports.

@@ -67,7 +67,8 @@ void fields(Archive& archive, Change& c) {
                                      {ChangeReason::kBeyondError, "beyond_error"},
                                      {ChangeReason::kWithin, "within_tolerance"},
                                      {ChangeReason::kTooWide, "error_too_wide"},
-                                     {ChangeReason::kTheRecordings, "recordings_differ"}});
+                                     {ChangeReason::kTheRecordings, "recordings_differ"},
+                                     {ChangeReason::kTheModel, "model_lacks"}});
   archive("difference", c.difference);
   archive("ci95", c.ci95);  // null where a side is open, which the limits beside it keep
   archive("low", c.ci95.low);
@@ -99,10 +100,20 @@ void fields(Archive& archive, WhichDiffers& w) {
   archive.choice("verdict", w.verdict,
                  Words<WhichVerdict>{{WhichVerdict::kNotAsked, "not_asked"},
                                      {WhichVerdict::kNone, "none"},
-                                     {WhichVerdict::kNamed, "named"}});
+                                     {WhichVerdict::kNamed, "named"},
+                                     {WhichVerdict::kMore, "named_and_more"},
+                                     {WhichVerdict::kUntold, "untold"},
+                                     {WhichVerdict::kStructure, "structure"}});
   archive.list("numbers", w.numbers);
+  archive.seldom("one_of", w.one_of);
   archive("compared", w.compared);
   archive("p_same", w.p_same);
+  archive.addition("p_rest", w.p_rest);
+  archive.addition("off_shared_floors", w.off_shared);
+  archive.addition("off_named_floors", w.off_named);
+  archive.addition("off_free_floors", w.off_free);
+  archive.addition("left_first_floors", w.left_first);
+  archive.addition("left_now_floors", w.left_now);
 }
 
 template <class Archive>

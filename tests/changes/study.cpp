@@ -156,15 +156,19 @@ double floors_of(const Pair& p) {
   return std::sqrt(square / count);
 }
 
-bool holds_key(const WhichDiffers& w, const std::string& key, bool alone) {
+bool names(const WhichDiffers& w, const std::string& key) {
+  return std::ranges::find(w.numbers, key, &DifferingNumber::key) != w.numbers.end();
+}
+
+/// What is named is another number, and none that it calls alike is the one.
+bool names_another(const WhichDiffers& w, const std::string& key) {
   return std::ranges::any_of(w.numbers, [&](const DifferingNumber& n) {
-    if (n.key == key) return !alone || n.look_alikes.empty();
-    return !alone && std::ranges::find(n.look_alikes, key) != n.look_alikes.end();
+    return n.key != key && std::ranges::find(n.look_alikes, key) == n.look_alikes.end();
   });
 }
 
 struct PairCounts {
-  int seen = 0, named = 0, in_group = 0, wrong = 0, none = 0, unfit = 0;
+  int seen = 0, named = 0, alone = 0, one_of = 0, wrong = 0, none = 0, unfit = 0;
   int same = 0, same_told = 0, rows = 0, rows_wrong = 0, inside = 0, row_right = 0;
 };
 
@@ -177,7 +181,10 @@ void count_rows(const Pair& p, const DriveChanges& all, PairCounts& n) {
     const double truth = value_of(p.after, i) - value_of(p.before, i);
     const Change& c = q.changes[0];
     ++n.rows;
-    n.inside += c.ci95.low <= truth && truth <= c.ci95.high;
+    const bool inside = c.ci95.low <= truth && truth <= c.ci95.high;
+    n.inside += inside;
+    if (!inside)
+      fmt::print("  {} {:.6g} to {:.6g}, in truth {:.6g}\n", q.key, c.ci95.low, c.ci95.high, truth);
     const bool changed = c.verdict == ChangeVerdict::kChanged;
     n.rows_wrong += changed && truth == 0.0;
     n.row_right += changed && truth != 0.0 && c.difference * truth > 0.0;
@@ -193,9 +200,12 @@ void count_pair(std::uint64_t seed, PairCounts& n) {
   const std::string truth = p.changed < 0 ? "nothing" : kQuantities[static_cast<std::size_t>(p.changed)];
   std::string told = std::to_string(static_cast<int>(w.verdict));
   for (const DifferingNumber& d : w.numbers) told += fmt::format(" {}({})", d.key, d.look_alikes.size());
+  for (const std::string& key : w.one_of) told += " ?" + key;
   const double floors = p.changed < 0 ? 0.0 : floors_of(p);
-  fmt::print("{} {} {:+.0f} % {:.1f} floors: {} p {:.2g}, trust {} {}\n", seed, truth, 100.0 * p.by, floors,
-             told, w.p_same, to_string(reports[0].reference->trust), to_string(reports[1].reference->trust));
+  fmt::print(
+      "{} {} {:+.0f} % {:.1f} floors: {} p {:.2g}, rest {:.2g}, off {:.4g} {:.4g} {:.4g}, trust {} {}\n",
+      seed, truth, 100.0 * p.by, floors, told, w.p_same, w.p_rest, w.off_shared, w.off_named, w.off_free,
+      to_string(reports[0].reference->trust), to_string(reports[1].reference->trust));
   std::fflush(stdout);
   n.unfit += w.verdict == WhichVerdict::kNotAsked;
   count_rows(p, all, n);
@@ -204,9 +214,10 @@ void count_pair(std::uint64_t seed, PairCounts& n) {
     n.same_told += w.verdict == WhichVerdict::kNone;
   } else if (floors >= 2.0) {
     ++n.seen;
-    n.named += holds_key(w, truth, true);
-    n.in_group += holds_key(w, truth, false);
-    n.wrong += w.verdict == WhichVerdict::kNamed && !holds_key(w, truth, false);
+    n.named += names(w, truth);
+    n.alone += names(w, truth) && w.numbers.size() == 1;
+    n.one_of += !names(w, truth) && std::ranges::find(w.one_of, truth) != w.one_of.end();
+    n.wrong += names_another(w, truth);
     n.none += w.verdict == WhichVerdict::kNone;
   }
 }
@@ -215,10 +226,11 @@ void count_pairs(std::uint64_t first, int count) {
   PairCounts n;
   for (int i = 0; i < count; ++i) count_pair(first + static_cast<std::uint64_t>(i), n);
   fmt::print(
-      "of {} that leave two floors: named alone {}, with look-alikes {}, another one {}, none {}; not asked {} of all\n"
+      "of {} that leave two floors: named {} (as the only one {}), among several that may {}, another one {}, none {}; not "
+      "asked {} of all\n"
       "of {} in which nothing changed: none {}\n"
       "rows: {} differences, {} within their 95 %; changed rightly {}, wrongly {}\n",
-      n.seen, n.named, n.in_group, n.wrong, n.none, n.unfit, n.same, n.same_told, n.rows, n.inside,
+      n.seen, n.named, n.alone, n.one_of, n.wrong, n.none, n.unfit, n.same, n.same_told, n.rows, n.inside,
       n.row_right, n.rows_wrong);
 }
 

@@ -54,8 +54,10 @@ TEST(WhichDiffers, WhatActsAlikeAndIsInNeitherFitMayHaveChangedInItsPlace) {
 TEST(WhichDiffers, AModelThatLeavesMoreThanTheEncoderNamesLess) {
   DriveReport poor = fitted({1.06, 1.0, 1.0, 1.0});
   EXPECT_EQ(which_differs(fitted({1.0, 1.0, 1.0, 1.0}), poor).verdict, WhichVerdict::kNamed);
-  poor.reference->innovation_rmse = 3e-5;
+  poor.reference->innovation_rmse = 2.5e-5;
   EXPECT_EQ(which_differs(fitted({1.0, 1.0, 1.0, 1.0}), poor).verdict, WhichVerdict::kNone);
+  poor.reference->innovation_rmse = 5e-4;  // no number of that fit says anything of the other's
+  EXPECT_EQ(which_differs(fitted({1.0, 1.0, 1.0, 1.0}), poor).verdict, WhichVerdict::kStructure);
 }
 
 TEST(WhichDiffers, NothingIsNamedOfDrivesThatAreTheSame) {
