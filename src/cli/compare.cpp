@@ -31,6 +31,23 @@ void require_another_folder(const CompareArguments& a) {
       throw ConfigError(a.output, "is one of the reports itself, expected another folder for the comparison");
 }
 
+/// What belongs to a report that was never made is named, with the commands that make it.
+void require_report(const std::string& folder) {
+  if (fs::is_regular_file(folder))
+    throw ConfigError(folder,
+                      "is a file, expected the folder of a report: that of `gapscope run`, detect, fit or "
+                      "diagnose of a configuration, reports/NAME if no other was asked for");
+  if (!fs::is_directory(folder) || fs::exists(folder + "/result.json") ||
+      fs::exists(folder + "/diagnosis.json"))
+    return;
+  const std::string path = fs::path(folder + "/").lexically_normal().parent_path().string();
+  throw ConfigError(
+      folder, fmt::format("has no result.json, expected the folder of a report. If it holds recordings: "
+                          "`gapscope init {0}/* -o {0}.yaml`, then `gapscope run {0}.yaml` (or detect), "
+                          "and compare reports/{1}",
+                          path, fs::path(path).filename().string()));
+}
+
 void write_comparison(ReportFolder& report, const DriveChanges& all) {
   write_drive_changes(report.path(), all);
   write_changes_report(report.path());
@@ -45,6 +62,7 @@ void compare(const CompareArguments& a) {
   std::vector<DriveReport> reports;
   for (const std::string& folder : a.folders) {
     stop_point();
+    require_report(folder);
     reports.push_back(read_drive_report(folder));
   }
   const DriveChanges all = changes(reports, a.spread ? ReportOrder::kUnits : ReportOrder::kInTime);
@@ -81,9 +99,10 @@ void add_compare(CommandLine& app) {
       "The first line is the change that matters most. All rows share one error rate: with n differences\n"
       "each interval is as wide as 1 - 0.05/n holds (Bonferroni), so that a word of any row is wrong in at\n"
       "most one comparison of twenty; the printed interval of a row is its own 95 %.\n"
-      "Of two fits it says which numbers must differ, with those that look alike; of four reports or more,\n"
-      "in order, the course of each quantity and since when it is not what it was; of units (--spread) those\n"
-      "that are unlike the others.\n"
+      "Of two fits it says which numbers must differ, with those that look alike, and what a joint fit of both\n"
+      "is off by on what it has not seen, with and without them; of four reports or more, in order, the course\n"
+      "of each quantity and since when it is not what it was; of units (--spread) those that are unlike the\n"
+      "others.\n"
       "Warned of: other numbers given, another excitation, encoder or method, the same recording twice, a\n"
       "model that leaves more than the encoder explains, a result that was changed since it was written.\n"
       "Numbers of a rejected model are left out.\n"
