@@ -187,6 +187,14 @@ TEST(RunResult, TheReferenceComesBackExactly) {
     EXPECT_EQ(a.mode_errors[i].samples, b.mode_errors[i].samples);
     EXPECT_SAME(mode_errors[i].rmse);
   }
+  ASSERT_EQ(a.pieces.size(), b.pieces.size());
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    EXPECT_EQ(a.pieces[i].recording, b.pieces[i].recording);
+    EXPECT_EQ(a.pieces[i].samples, b.pieces[i].samples);
+    EXPECT_SAME(pieces[i].square);
+    EXPECT_EQ(a.pieces[i].slope, b.pieces[i].slope);
+    EXPECT_EQ(a.pieces[i].normal, b.pieces[i].normal);
+  }
   ASSERT_EQ(b.traces.size(), 1u);
   EXPECT_EQ(a.traces[0].file, b.traces[0].file);
   EXPECT_EQ(a.traces[0].x1, b.traces[0].x1);
