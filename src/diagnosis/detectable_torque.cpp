@@ -77,7 +77,8 @@ std::vector<DetectableEffect> detectable_in_torque(const Study& study, const Fir
   const auto another = [](const view::Law& free_form, const view::Law& law) {
     return follows_another(free_form, *find_effect(law.effect));
   };
-  const view::SplitRecordings data = in_torque(study, nominal);
+  view::SplitRecordings data = in_torque(study, nominal);
+  data.lines = budget.scales.lines;
   std::vector<view::LeastNamed> laws = view::least_named(data, budget, another);
   if (study.options.known.detectable) {  // takes longer than the diagnosis
     study.options.progress("trying what would have been named");

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "base/require.h"
+#include "diagnosis/periodic_torque.h"
+#include "diagnosis/step.h"
 #include "diagnosis/torque_model.h"
 
 namespace gapscope::internal::diagnosis {
@@ -18,6 +20,19 @@ bool has_one_balance(const Study& study, const ReferenceModel& model) {
   if (!model.structure.has_load) return true;
   const bool of_the_same = study.held_out.scored_from.front() > 0;
   return model.structure.load == LoadKind::kLocked && (!has_play(model) || of_the_same);
+}
+
+/// Cycles per turn at which the correcting torque stands out where the model was fitted and holds on what is
+/// held out.
+std::vector<double> repeating_lines(const Study& study, const ReferenceModel& nominal) {
+  const auto held = ripples_of(play(nominal, study.held_out, study.observer_hz, true));
+  std::vector<double> lines;
+  if (held.empty()) return lines;
+  for (const TorqueLine& line : standing_lines(ripples_of(play_on_train(study, nominal)), study.train))
+    if (!is_of_encoder(line.line.periods, study.train) &&
+        check_line(line.line.periods, held, study.held_out).holds())
+      lines.push_back(line.line.periods);
+  return lines;
 }
 
 /// Position at which the load hangs, by the model; 0 where nothing hangs.
@@ -229,7 +244,9 @@ view::SplitRecordings in_torque(const Study& study, const ReferenceModel& nomina
 
 std::optional<view::Budget> torque_budget(const Study& study, const ReferenceModel& nominal) {
   if (!has_one_balance(study, nominal)) return {};
-  const view::Budget budget = view::error_budget(in_torque(study, nominal));
+  view::SplitRecordings data = in_torque(study, nominal);
+  data.lines = repeating_lines(study, nominal);
+  const view::Budget budget = view::error_budget(data);
   return std::isnan(budget.band.hz) ? std::optional<view::Budget>() : budget;
 }
 

@@ -13,13 +13,14 @@ struct Products {
   double aa = 0.0, ar = 0.0, rr = 0.0, uu = 0.0;  ///< acceleration, input less all that is no inertia, input
 };
 
-/// What a drive mostly has: only so that a missing friction or weight does not pass for inertia.
-Model probe_model(const ShaftTurns& turns) {
+/// What a drive mostly has, and what is seen to repeat: so that none of it, missing, passes for inertia.
+Model probe_model(const ShaftTurns& turns, std::span<const double> lines) {
   Model model = nominal_model();
   for (const char* name : {"motor_coulomb_friction", "friction_asymmetry"})
     model.push_back({&law(name), kNaN, Eigen::VectorXd::Zero(law(name).columns)});
   if (std::isfinite(turns.load))
     model.push_back({&law("load_unbalance"), turns.load, Eigen::VectorXd::Zero(2)});
+  for (const double k : lines) model.push_back({&law("cogging_torque"), k, Eigen::VectorXd::Zero(2)});
   return model;
 }
 
@@ -80,7 +81,7 @@ void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vecto
 }  // namespace
 
 FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
-                          const TorqueViewOptions& options, int threads) {
+                          std::span<const double> lines, const TorqueViewOptions& options, int threads) {
   FrequencyBand band;
   const std::vector<double> hz =
       options.given_hz > 0.0 ? std::vector<double>{options.given_hz} : tops(traces, options);
@@ -89,7 +90,7 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns
   parallel_for(hz.size(), threads, [&](std::size_t i) { rows[i] = stacked(traces, hz[i], false, options); });
   for (const BandRecord& r : rows.front().records()) band.free_constant |= is_constant_speed(r, options);
 
-  const Model probe = probe_model(turns);
+  const Model probe = probe_model(turns, lines);
   read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));
   std::size_t quiet = 0;
   for (std::size_t i = 0; i < hz.size(); ++i)

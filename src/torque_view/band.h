@@ -21,13 +21,15 @@ struct Octave {
 /// 0.9 of those below, by more than what else the octave holds lets it vary. Noise of the encoder only ever
 /// takes from J (1 − N²/A²), and more the higher the octave: one that is larger ends nothing, and neither
 /// does a low one above which J comes back, as a torque that the model lacks makes it. Where J a is a small
-/// part of the input an octave has no say about J.
+/// part of the input an octave has no say about J. A line that repeats with the position is in the model that
+/// reads J: as a torque that is missing it would pass for another J in the octave in which it passes.
 struct FrequencyBand {
   double hz = kNaN;
   bool free_constant = false;  ///< a recording has one speed
   std::vector<Octave> octaves;
 };
+/// @param lines  cycles per 2π of what is known to repeat
 FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
-                          const TorqueViewOptions& options, int threads = 1);
+                          std::span<const double> lines, const TorqueViewOptions& options, int threads = 1);
 
 }  // namespace gapscope::internal::torque_view

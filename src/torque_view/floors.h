@@ -13,6 +13,8 @@ struct SplitRecordings {
   Model known = {};          ///< what the nominal model has beside inertia and viscous damping
   std::vector<std::string> closed = {};   ///< effects of the catalogue that are no candidates
   std::vector<std::string> addable = {};  ///< effects that the caller's model can have
+  /// Cycles per 2π of what repeats, as a faster observer sees it: there the band may pass it at times only.
+  std::vector<double> lines = {};
   int threads = 1;
 };
 

@@ -155,6 +155,7 @@ Bench bench_of(const SplitRecordings& data, const FrequencyBand& band, const Tor
               data.closed,
               data.threads};
   bench.scales = scales_of(bench.fit, data.turns, data.held_output);
+  bench.scales.lines = data.lines;
   bench.blocks = Blocks(bench.judge, options);
   return bench;
 }
@@ -166,7 +167,7 @@ void take_line(Bench& bench, const Model& model) {
 
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
   Budget budget;
-  budget.band = choose_band(data.fit, data.turns, options, data.threads);
+  budget.band = choose_band(data.fit, data.turns, data.lines, options, data.threads);
   if (std::isnan(budget.band.hz)) return budget;
   Bench bench = bench_of(data, budget.band, options);
   budget.scales = bench.scales;

@@ -27,9 +27,10 @@ struct Scales {
   double hz = 1.0;        ///< top of the band
   ShaftTurns turns = {};  ///< along 2π; none of a slide
   bool held_output = false;
-  bool one_speed = false;  ///< a recording has one
-  double line = kNaN;      ///< cycles per 2π of the strongest line in the model; NaN: none
-  double ripple = kNaN;    ///< the same of its ripple
+  bool one_speed = false;          ///< a recording has one
+  double line = kNaN;              ///< cycles per 2π of the strongest line in the model; NaN: none
+  double ripple = kNaN;            ///< the same of its ripple
+  std::vector<double> lines = {};  ///< where a line is looked for beside its grid [cycles per 2π]
 };
 
 /// The shapes that a law is tried at, in rising order; one NaN where it has none.

@@ -63,7 +63,8 @@ BestShape refined_line(Rows& rows, Projection& projection, const Law& law, doubl
   return best;
 }
 
-BestShape best_line(Rows& rows, Projection& projection, const Law& law, const std::vector<double>& grid) {
+BestShape best_line(Rows& rows, Projection& projection, const Law& law, const std::vector<double>& grid,
+                    std::span<const double> beside) {
   if (grid.size() < 2) return {};
   const double cell = grid[1] - grid[0];
   TurningLine line(rows, grid.front(), cell);
@@ -75,7 +76,10 @@ BestShape best_line(Rows& rows, Projection& projection, const Law& law, const st
     if (!(gain <= best.gain)) best = {k, gain};
     line.turn();
   }
-  const BestShape refined = refined_line(rows, projection, law, best.shape, cell);
+  BestShape refined = refined_line(rows, projection, law, best.shape, cell);
+  for (const double k : beside)
+    if (const BestShape there = refined_line(rows, projection, law, k, cell); there.gain > refined.gain)
+      refined = there;
   return refined_line(rows, projection, law, refined.shape, cell / (kRefinements - 1));
 }
 
@@ -135,7 +139,7 @@ bool has_its_sign(const Law& law, double theta, double inertia) {
 
 BestShape best_shape(Rows& rows, Projection& projection, const Law& law, const Scales& scales) {
   const std::vector<double> shapes = law.shapes(scales);
-  if (law.shapes == line_grid) return best_line(rows, projection, law, shapes);
+  if (law.shapes == line_grid) return best_line(rows, projection, law, shapes, scales.lines);
   BestShape best;
   Eigen::MatrixXd columns(rows.size(), law.columns);
   for (const double shape : shapes) {
