@@ -97,9 +97,10 @@ bool refutes(double left, double varies) { return left * kRule.floor_ratio < var
 
 MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const ScoredModel& after) {
   const HeldOut& held = study.held_out;
-  const bool predicted = study.repeats_badly();
-  const auto windows = judged_windows(study);
+  const bool predicted = study.repeats_badly() || is_led_astray(after, before);
+  const auto windows = predicted ? &Windows::innovation : &Windows::free;
   const double encoder = pooled_floor(held);
+  const double varies = predicted ? std::max(encoder, held.innovation_repeats) : judged_floor(study);
   const double restart = held.traces.front().dt * static_cast<double>(held.restart(0));
   MismatchSize size;
   size.judged_by = predicted ? JudgedBy::kPrediction : JudgedBy::kFreeRun;
@@ -107,10 +108,10 @@ MismatchSize mismatch_size(const Study& study, const ScoredModel& before, const 
       predicted ? fmt::format("prediction of an observer at {:g} Hz, median over windows of the rms",
                               study.observer_hz)
                 : fmt::format("free run restarted every {:.3g} s, median over windows of the rms", restart);
-  size.before = judged_floor(study) * median_size(before.windows.*windows);
-  size.after = judged_floor(study) * median_size(after.windows.*windows);
-  const bool repeats = predicted && !refutes(size.after, judged_floor(study));
-  size.floor = predicted && !repeats ? encoder : judged_floor(study);
+  size.before = varies * median_size(before.windows.*windows);
+  size.after = varies * median_size(after.windows.*windows);
+  const bool repeats = study.repeats_badly() && !refutes(size.after, varies);
+  size.floor = predicted && !repeats ? encoder : varies;
   const double b = size.before / size.floor, a = size.after / size.floor;
   const bool noisy = is_open_by_supply(held) || encoder > 1.1 * held.traces.front().quantum / std::sqrt(12.0);
   size.floor_from = repeats ? FloorSource::kRepeatability

@@ -65,6 +65,11 @@ bool at_floor(const ScoredModel& j) {
   return j.median_free < kRule.floor_ratio && j.median_innovation < kRule.floor_ratio;
 }
 
+bool is_led_astray(const ScoredModel& added, const ScoredModel& other) {
+  return added.median_innovation < kRule.floor_ratio && !(other.median_innovation < kRule.floor_ratio) &&
+         added.median_free > other.median_free;
+}
+
 bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost) {
   return model.median_free > kRule.far * std::sqrt(fitted_mean_cost);
 }

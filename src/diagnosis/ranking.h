@@ -30,6 +30,10 @@ bool look_alike(const EffectEntry& a, const EffectEntry& b);
 
 /// Both medians within kRule.floor_ratio.
 bool at_floor(const ScoredModel& judged);
+/// Whether a model that adds to another predicts what is held out to the floor, as the other does not, and
+/// departs farther in free runs all the same: then these say nothing against it. Detents that take most of
+/// the motor's energy make as much of a count at the start of a run; a model without them cannot.
+bool is_led_astray(const ScoredModel& added, const ScoredModel& other);
 
 /// Whether a model leaves far more of what is held out than the mean square that was left of what was fitted.
 bool leaves_far_more_held_out(const ScoredModel& model, double fitted_mean_cost);

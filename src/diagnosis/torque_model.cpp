@@ -67,6 +67,23 @@ void bound_static_friction(ReferenceModel& model) {
   }
 }
 
+/// What the model has already, as the balance has it: its numbers hold together. At one level of speed it may
+/// part friction into viscous and Coulomb friction otherwise than the model did.
+void take_known(ReferenceModel& model, const view::Budget& budget, const view::Drive& drive) {
+  for (ModelEffect& effect : model.effects) {
+    const view::Law* law = law_of(*effect.entry);
+    const auto end = budget.addable.begin() + std::ssize(budget.nominal);
+    const auto term = std::find_if(budget.addable.begin(), end, [&](const view::Term& t) {
+      return t.law == law && (law->shape_at < 0 ||
+                              t.shape == effect.parameters[static_cast<std::size_t>(law->shape_at)].value);
+    });
+    if (term == end || !view::has_its_sign(*law, term->theta[0], drive.inertia)) continue;
+    const std::vector<double> values = law->values(term->theta, term->shape, drive);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (effect.parameters[i].estimate && std::isfinite(values[i])) effect.parameters[i].value = values[i];
+  }
+}
+
 void add_once(view::Model& model, const view::Law& law, double shape) {
   if (view::find_term(model, law.name) == nullptr)
     model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
@@ -134,6 +151,7 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
   };
   take(place::kMotorInertia, drive.inertia);
   take(place::kMotorDamping, drive.viscous);
+  take_known(model, budget, drive);
   for (std::size_t i = budget.nominal.size(); i < budget.addable.size(); ++i) {
     const view::Term& term = budget.addable[i];
     if (term.law->harmonic > 0) {
@@ -168,6 +186,7 @@ ScoredModel refitted_from(const Study& study, const ReferenceModel& balanced, co
   ScoredModel refitted =
       judge(nullptr, fit_near(study.train, balanced, options, hz, effort), study.held_out, hz);
   if (std::max(refitted.median_free, refitted.median_innovation) < options.rejected_ratio) return refitted;
+  if (is_led_astray(refitted, nominal)) return refitted;
   ScoredModel as_is = judge(nullptr, {balanced, {}, 0.0, {}, {}, true}, study.held_out, hz);
   const auto& effects = refitted.fitted.model.effects;
   const bool kept = std::none_of(effects.begin(), effects.end(), has_vanished);

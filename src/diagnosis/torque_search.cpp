@@ -171,9 +171,11 @@ bool drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
   return changes;
 }
 
-/// Whether a model can be run, and departs no further than far from the one that it was added to.
+/// Whether a model can be run, and departs no further than far from the one that it was added to, unless that
+/// says nothing.
 bool is_usable(const ScoredModel& model, const ScoredModel& nominal) {
-  return std::isfinite(model.score) && !(model.median_free > kRule.far * nominal.median_free);
+  return std::isfinite(model.score) &&
+         (!(model.median_free > kRule.far * nominal.median_free) || is_led_astray(model, nominal));
 }
 
 /// Whether an effect is one of those that are asked, the simpler one within one of them, or what one of them

@@ -34,6 +34,40 @@ TEST(TorqueModel, FrictionAtRestDoesNotDriveTheMotor) {
   }
 }
 
+/// At one level of speed viscous and Coulomb friction are one number: who takes the one of the balance takes
+/// the other.
+TEST(TorqueModel, WhatTheModelHasAlreadyIsTakenWithTheRest) {
+  ReferenceModel model;
+  model.structure.has_load = false;
+  model.parameters[place::kMotorDamping] = ParameterSetting::sought(3e-2);
+  ModelEffect coulomb;
+  coulomb.entry = find_effect("motor_coulomb_friction");
+  coulomb.parameters[0] = ParameterSetting::sought(0.0);
+  model.effects = {coulomb};
+  view::Budget budget;
+  budget.nominal = view::nominal_model();
+  budget.nominal.push_back(term("motor_coulomb_friction", {0.0}));
+  budget.addable = {term("inertia", {1e-3}), term("viscous", {1e-2}), term("motor_coulomb_friction", {0.1})};
+  const ReferenceModel taken = internal::diagnosis::with_terms(model, budget);
+  EXPECT_DOUBLE_EQ(taken.parameters[place::kMotorDamping].value, 1e-2);
+  EXPECT_DOUBLE_EQ(taken.effects.front().parameters[0].value, 0.1);
+  model.effects.front().parameters[0].estimate = false;
+  EXPECT_DOUBLE_EQ(internal::diagnosis::with_terms(model, budget).effects.front().parameters[0].value, 0.0);
+}
+
+TEST(TorqueModel, AFreeRunSaysNothingAgainstWhatAlonePredicts) {
+  const auto scored = [](double free, double innovation) {
+    internal::diagnosis::ScoredModel m;
+    m.median_free = free, m.median_innovation = innovation;
+    return m;
+  };
+  using internal::diagnosis::is_led_astray;
+  EXPECT_TRUE(is_led_astray(scored(390.0, 1.18), scored(23.7, 22.4)));
+  EXPECT_FALSE(is_led_astray(scored(390.0, 1.5), scored(23.7, 22.4))) << "it predicts, too, what is none";
+  EXPECT_FALSE(is_led_astray(scored(390.0, 1.1), scored(23.7, 1.2))) << "the other predicts as well";
+  EXPECT_FALSE(is_led_astray(scored(20.0, 1.1), scored(23.7, 22.4)));
+}
+
 /// Viscous friction that differs with direction acts without any Coulomb friction.
 TEST(TorqueModel, AnEffectWithAnyAmountLeftHasNotVanished) {
   using internal::diagnosis::has_faded;
