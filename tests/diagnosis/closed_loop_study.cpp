@@ -1,6 +1,7 @@
 // The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
 // at constant speed, or under a given command.
-//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded] [--effect NAME|none]
+//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded|levels] [--effect
+//   NAME|none]
 //                     [--volt-step SHARE] [-j THREADS]
 // Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
 // with Wilson limits.
@@ -46,6 +47,7 @@ Order read_order(int argc, char** argv) {
       order.driven = value == "constant"    ? Driven::kConstantSpeed
                      : value == "open"      ? Driven::kOpen
                      : value == "commanded" ? Driven::kCommanded
+                     : value == "levels"    ? Driven::kLevels
                                             : Driven::kLoop;
   }
   return order;
@@ -62,7 +64,8 @@ struct Answer {
   double floors = kNaN;      ///< torque that is missing, over its floor
   double seconds = 0.0;
   int redrawn = 0;
-  bool refused = false;  ///< the diagnosis takes no such recording
+  bool refused = false;                                           ///< the diagnosis takes no such recording
+  bool with_number = false, in_interval = false, denied = false;  ///< see judge_line()
 
   bool is_effect() const { return verdict == DiagnosisVerdict::kEffect; }
 };
@@ -109,6 +112,35 @@ std::string in_words(const test::LoopCase& c) {
   return fmt::format("{} {} ({:.0f} % missing; {}{})", c.seed, c.effect, 100.0 * c.missing, c.set_up, again);
 }
 
+double value_of(const AddedEffect& a, std::string_view key) {
+  for (const NamedValue& v : a.parameters)
+    if (v.key == key) return v.value;
+  return kNaN;
+}
+
+/// Of a line that was given: whether it was added with its number per turn, whether the interval of its
+/// amplitude holds, and whether less than it has was said to be seen.
+void judge_line(const test::LoopCase& c, const Diagnosis& d, Answer& a) {
+  for (const AddedEffect& e : d.added) {
+    if (e.effect != c.effect && !holds(e.group, c.effect)) continue;
+    if (!(std::abs(value_of(e, "periods_per_turn") - c.periods) < 0.01 * c.periods)) continue;
+    const Interval& ci = e.parameters.front().ci95;
+    a.with_number = true;
+    a.in_interval = e.effect == c.effect && ci.low <= c.amplitude && c.amplitude <= ci.high;
+  }
+  const bool silent = d.verdict == DiagnosisVerdict::kNone || d.verdict == DiagnosisVerdict::kUnknown;
+  for (const DetectableEffect& e : d.detectable)
+    a.denied = a.denied || (silent && e.effect == c.effect && e.smallest.value < c.amplitude);
+  a.denied = a.denied || (!a.with_number && d.verdict == DiagnosisVerdict::kNone);
+}
+
+std::string line_in_words(const test::LoopCase& c, const Answer& a) {
+  return std::isnan(c.periods) ? ""
+                               : fmt::format("; {} of {:.4g}{}{}{}", c.periods, c.amplitude,
+                                             a.with_number ? ", number right" : "",
+                                             a.in_interval ? ", held" : "", a.denied ? ", DENIED" : "");
+}
+
 /// To be counted over several runs: lines of a run that was ended are as good.
 const char* mark_of(const Answer& a) {
   if (!(a.floors > 2.0)) return "below 2 floors";
@@ -133,7 +165,9 @@ Answer examine(const test::LoopCase& c) {
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
-  a.line = fmt::format("{}: {}: {}; {:.1f} s", in_words(c), mark_of(a), told(d), a.seconds);
+  judge_line(c, d, a);
+  a.line =
+      fmt::format("{}: {}: {}{}; {:.1f} s", in_words(c), mark_of(a), told(d), line_in_words(c, a), a.seconds);
   return a;
 }
 
@@ -180,6 +214,10 @@ void print_counts(const std::vector<Answer>& answers) {
     count("a wrong one among later causes", lacking, [](const Answer& a) { return a.wrong_later; });
     count("helps", lacking, says(DiagnosisVerdict::kHelps));
     count("  of it with the truth among what was added", lacking, [](const Answer& a) { return a.helped; });
+    count("with its number per turn (levels: 85 %)", lacking, [](const Answer& a) { return a.with_number; });
+    count("  and its amplitude in the interval (93 %)", lacking,
+          [](const Answer& a) { return a.in_interval; });
+    count("denied (levels: never)", lacking, [](const Answer& a) { return a.denied; });
     count("unknown", lacking, says(DiagnosisVerdict::kUnknown));
     count("none", lacking, says(DiagnosisVerdict::kNone));
   }
@@ -199,8 +237,9 @@ void print_counts(const std::vector<Answer>& answers) {
 
 test::LoopCase case_of(const Order& order, std::uint64_t seed) {
   const std::vector<std::string>& effects = test::loop_effects(order.driven);
-  return test::loop_case(order.driven, order.effect.empty() ? effects[seed % effects.size()] : order.effect,
-                         seed, order.volt_step);
+  const std::string& effect = order.effect.empty() ? effects[seed % effects.size()] : order.effect;
+  return order.driven == Driven::kLevels ? test::level_case(effect, seed)
+                                         : test::loop_case(order.driven, effect, seed, order.volt_step);
 }
 
 void write_cases(const Order& order) {

@@ -22,9 +22,10 @@ struct EncoderAndRate {
 constexpr std::array<EncoderAndRate, 4> kElectronics{{{12, 200.0}, {14, 500.0}, {16, 1000.0}, {20, 2000.0}}};
 constexpr std::array<EncoderAndRate, 5> kServos{
     {{12, 100.0}, {12, 200.0}, {14, 200.0}, {14, 500.0}, {16, 500.0}}};
+constexpr std::array<EncoderAndRate, 3> kFine{{{14, 500.0}, {16, 1000.0}, {20, 2000.0}}};
 constexpr std::array kCourses{Course::kSCurve, Course::kTriangle, Course::kTrapezoid, Course::kSines,
                               Course::kPickAndPlace};
-constexpr std::array kCourseNames{"constant", "S", "triangle", "trapezoid", "sines", "places"};
+constexpr std::array kCourseNames{"constant", "S", "triangle", "trapezoid", "sines", "places", "levels"};
 constexpr std::array kWaveforms{Waveform::kMultisine, Waveform::kSweptSine, Waveform::kTrapezoid,
                                 Waveform::kSteps};
 constexpr std::array kWaveformNames{"sine", "multisine", "sweep", "triangle", "trapezoid", "steps"};
@@ -35,10 +36,16 @@ auto pick(std::mt19937_64& g, const Array& values) {
 }
 
 void draw_motion(std::mt19937_64& g, Driven driven, ReferenceMotion& m) {
-  m.course = driven == Driven::kConstantSpeed ? Course::kConstantSpeed : pick(g, kCourses);
+  m.course = driven == Driven::kConstantSpeed ? Course::kConstantSpeed
+             : driven == Driven::kLevels      ? Course::kLevels
+                                              : pick(g, kCourses);
   m.speed = log_uniform(g, 3.0, 15.0);
   m.travel = m.speed * log_uniform(g, 0.4, 2.0);
   m.dwell_s = uniform(g, 0.0, 0.3);
+  if (driven == Driven::kLevels) {
+    m.travel = m.speed * log_uniform(g, 0.5, 2.0);
+    m.levels = 1 + static_cast<int>(uniform(g, 0.0, 3.0));
+  }
   if (driven == Driven::kConstantSpeed && uniform(g, 0.0, 1.0) < 0.3) m.speed = -m.speed;
 }
 
@@ -89,7 +96,9 @@ void draw_drive(std::mt19937_64& g, Driven driven, BlindCase& c) {
   const bool servo = driven == Driven::kCommanded;
   c.drive.motor_damping =
       c.drive.motor_inertia / (servo ? log_uniform(g, 0.03, 0.15) : log_uniform(g, 0.1, 2.0));
-  const EncoderAndRate electronics = servo ? pick(g, kServos) : pick(g, kElectronics);
+  const EncoderAndRate electronics = servo                       ? pick(g, kServos)
+                                     : driven == Driven::kLevels ? pick(g, kFine)
+                                                                 : pick(g, kElectronics);
   c.options = {electronics.rate, kDuration, 0, kFastTolerance};
   const bool noisy = uniform(g, 0.0, 1.0) < 0.5;
   c.sensor = BlindSensor::with_bits(electronics.bits, noisy ? uniform(g, 0.3, 1.0) : 0.0);

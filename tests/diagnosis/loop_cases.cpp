@@ -1,16 +1,20 @@
 #include "diagnosis/loop_cases.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
 #include "diagnosis/loop_bench.h"
+#include "torque_view/band.h"
 
 namespace gapscope::test {
 namespace {
 
 using namespace independent_plant;
+namespace torque_view = internal::torque_view;
 
 constexpr double kWindow = 0.02;              ///< over which momentum is balanced [s]
 constexpr double kLeast = -1.0, kMost = 1.5;  ///< severity
@@ -136,6 +140,8 @@ const std::vector<std::string>& loop_effects(Driven driven) {
       "quadratic_drag",         "load_unbalance",    "constant_load_torque",  "cogging_torque",
       "torque_ripple",          "input_delay",       "input_dead_zone",       "torque_saturation",
       "encoder_eccentricity",   "viscous_drift",     "load_inertia_variation"};
+  static const std::vector<std::string> lines = {"cogging_torque", "torque_ripple"};
+  if (driven == Driven::kLevels) return lines;
   static const std::vector<std::string> periodic = {"cogging_torque", "load_unbalance", "torque_ripple",
                                                     "encoder_eccentricity"};
   return driven == Driven::kConstantSpeed ? periodic : all;
@@ -160,6 +166,37 @@ LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed,
   result.train = servo ? commanded(b, b.train, volt_step) : recorded(b, b.train).recording;
   result.held_out = servo ? commanded(b, b.held_out, volt_step) : recorded(b, b.held_out).recording;
   if (servo) result.controller = declared_controller(b.controller);
+  return result;
+}
+
+LoopCase level_case(const std::string& effect, std::uint64_t seed) {
+  std::mt19937_64 g = random_stream(seed, "speed levels study");
+  LoopCase result;
+  result.seed = seed, result.effect = effect;
+  Bench b = drawn_bench(g, Driven::kLevels, seed);
+  if (effect == "torque_ripple") b.recorder.input = RecordedInput::kCommand;
+  if (uniform(g, 0.0, 1.0) < 0.5) {
+    const double share = uniform(g, 0.2, 1.0);  // of the viscous friction at the top speed
+    b.c.drive.effects.motor.friction.level_nm = share * b.c.drive.motor_damping * b.train.motion.speed;
+  }
+  const Recording bare = recorded(b, b.train).recording;
+  const torque_view::StampedTrace traces[] = {torque_view::stamped(bare.motor_trace(), true)};
+  const double band = torque_view::choose_band(traces, {}, {}, {}).hz;
+  const double hz = log_uniform(g, 0.3, 3.0) * band;
+  result.periods = std::max(2.0, std::round(2.0 * kPi * hz / b.train.motion.speed));
+  const double input = rms(bare.u) * b.c.drive.torque_constant;
+  const AngleHarmonic line{log_uniform(g, 0.05, effect == "torque_ripple" ? 0.3 : 0.5), result.periods,
+                           uniform(g, 0.0, 2.0 * kPi)};
+  result.amplitude = effect == "torque_ripple" ? line.amplitude : input * line.amplitude;
+  (effect == "torque_ripple" ? b.c.drive.effects.command.ripple : b.c.drive.effects.motor.cogging) = line;
+  b.c.drive.effects.motor.cogging.amplitude *= input;
+  result.sheet = sheet_of(g, b.c.drive);
+  result.missing = missing_share(b);
+  result.set_up = fmt::format("{}, {} levels, {:.0f} per turn pass at {:.2f} times {:.1f} Hz", in_words(b),
+                              b.train.motion.levels, result.periods,
+                              result.periods * b.train.motion.speed / (2.0 * kPi * band), band);
+  result.drive = b.c.drive;
+  result.train = recorded(b, b.train).recording, result.held_out = recorded(b, b.held_out).recording;
   return result;
 }
 

@@ -15,6 +15,7 @@ enum class Driven {
   kConstantSpeed,  ///< the same, at one speed
   kOpen,           ///< by a given command
   kCommanded,      ///< as kLoop, by a servo that tells target, position and volts alone
+  kLevels,         ///< by a controller, forth and back at one to three speeds
 };
 
 /// A drive of one body on the independent plant, which has an effect that its sheet does not tell of.
@@ -25,6 +26,7 @@ struct LoopCase {
       0.0;  ///< rms of the held-out torque that inertia and viscous damping leave, over the input's
   std::string set_up;  ///< in words
   int redrawn = 0;     ///< drives of this seed that stood still under their effect and are no case
+  double periods = kNaN, amplitude = kNaN;  ///< of a line, see level_case()
   independent_plant::BlindDrive drive;
   Recording train, held_out;
   std::optional<DriveController> controller;  ///< that made u of the commands
@@ -33,6 +35,12 @@ struct LoopCase {
 
 /// Effects that a drive of one body can have and that such recordings can show.
 const std::vector<std::string>& loop_effects(Driven driven);
+
+/// A drive with detents or torque ripple (cogging_torque, torque_ripple), at one to three speeds to either
+/// side (3 to 15 rad/s, another one held out): they pass at 0.3 to 3 times the band that the torque balance
+/// has without them, and are 5 to 50 % of the input's rms (ripple: 5 to 30 % of the torque); half of the
+/// drives have Coulomb friction, too. The rest as in loop_case(), from 14 bit and 500 Hz.
+LoopCase level_case(const std::string& effect, std::uint64_t seed);
 
 /// Drawn from the seed: inertia 4e-4 to 4e-3 kg·m², J/d 0.1 to 2 s; an encoder of 12 bit read at 200 Hz, 14
 /// at 500, 16 at 1000 or 20 at 2000 Hz; speed loops that cross 1 at 3 to 20 Hz, P or PI, with or without a

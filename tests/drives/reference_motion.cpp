@@ -13,13 +13,14 @@ namespace {
 constexpr double kRamp = 0.25;     ///< of a trapezoid's time
 constexpr double kSpread = 1.75;   ///< between the frequencies of two sines, irrational enough
 constexpr double kShortest = 0.1;  ///< of the travel, between two places
+constexpr double kSlowest = 0.5;   ///< level of speed, of the peak
 constexpr int kSamplesOfLines = 20000;
 constexpr double kPeriodsOfLines = 40.0;  ///< of the slowest sine, over which their peaks are looked for
 
 /// Way and speed of a move of length and duration 1.
 Target unit_move(Course course, double p) {
   if (course == Course::kTriangle || course == Course::kConstantSpeed) return {p, 1.0};
-  if (course != Course::kTrapezoid)
+  if (course != Course::kTrapezoid && course != Course::kLevels)
     return {p - std::sin(2.0 * kPi * p) / (2.0 * kPi), 1.0 - std::cos(2.0 * kPi * p)};
   const double top = 1.0 / (1.0 - kRamp);
   if (p < kRamp) return {0.5 * top * p * p / kRamp, top * p / kRamp};
@@ -32,6 +33,13 @@ double next_place(const ReferenceMotion& m, double from, std::mt19937_64& g) {
   double to = from;
   while (std::abs(to - from) < kShortest * m.travel) to = uniform(g, -0.5 * m.travel, 0.5 * m.travel);
   return to;
+}
+
+/// Of a move, of the peak.
+double speed_share(const ReferenceMotion& m, std::size_t move) {
+  if (m.course != Course::kLevels || m.levels < 2) return 1.0;
+  const auto level = static_cast<double>((move / 2) % static_cast<std::size_t>(m.levels));
+  return 1.0 - (1.0 - kSlowest) * level / (m.levels - 1.0);
 }
 
 }  // namespace
@@ -53,7 +61,7 @@ void Reference::add_moves(double duration, std::uint64_t seed) {
   double at = 0.0;
   for (double t = 0.0; t < duration;) {
     const double to = next_place(motion_, at, places);
-    const double takes = top * std::abs(to - at) / motion_.speed;
+    const double takes = top * std::abs(to - at) / (motion_.speed * speed_share(motion_, moves_.size()));
     moves_.push_back({t, takes, at, to});
     t += takes + motion_.dwell_s;
     at = to;

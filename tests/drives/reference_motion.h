@@ -12,6 +12,7 @@ enum class Course {
   kTrapezoid,      ///< forth and back, speeding up and slowing down over a quarter of the time each
   kSines,          ///< a sum of sines of incommensurate frequencies, random phases
   kPickAndPlace,   ///< S-curves between random places
+  kLevels,         ///< as the trapezoid, each forth and back at the next of some speeds
 };
 
 struct ReferenceMotion {
@@ -20,6 +21,7 @@ struct ReferenceMotion {
   double speed = 5.0;    ///< peak; constant speed: its sign is the direction [rad/s]
   double dwell_s = 0.1;  ///< between two moves
   int lines = 4;         ///< of the sines
+  int levels = 1;        ///< of speed, down to half of the peak, of kLevels
 };
 
 /// What a controller is to follow, at rest at zero before it begins.
