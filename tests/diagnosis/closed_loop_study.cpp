@@ -134,6 +134,15 @@ void judge_line(const test::LoopCase& c, const Diagnosis& d, Answer& a) {
   a.denied = a.denied || (!a.with_number && d.verdict == DiagnosisVerdict::kNone);
 }
 
+/// Half of such drives have Coulomb friction, too.
+bool names_only_its_own(const test::LoopCase& c, const Diagnosis& d) {
+  const bool rubs = c.drive.effects.motor.friction.level_nm > 0.0;
+  return std::all_of(d.added.begin(), d.added.end(), [&](const AddedEffect& e) {
+    return !e.established || e.effect == c.effect || holds(e.group, c.effect) ||
+           (rubs && e.effect == "motor_coulomb_friction");
+  });
+}
+
 std::string line_in_words(const test::LoopCase& c, const Answer& a) {
   return std::isnan(c.periods) ? ""
                                : fmt::format("; {} of {:.4g}{}{}{}", c.periods, c.amplitude,
@@ -166,6 +175,7 @@ Answer examine(const test::LoopCase& c) {
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
   judge_line(c, d, a);
+  if (!std::isnan(c.periods)) a.first = a.in_group = a.with_number && names_only_its_own(c, d);
   a.line =
       fmt::format("{}: {}: {}{}; {:.1f} s", in_words(c), mark_of(a), told(d), line_in_words(c, a), a.seconds);
   return a;
