@@ -129,7 +129,7 @@ Json recording_schema() {
   resample.required = {"rate"};
   recording.add("file",
                 recorded_files_schema("CSV, .mat, .npz, HDF5, MCAP, .db3 or JSON, relative to this file; "
-                                      "several are never concatenated"));
+                                      "several are never concatenated and share no rows"));
   recording.add("held_out", recorded_files_schema("only diagnose reads it; other files than file"));
   recording.add(
       "simulated",

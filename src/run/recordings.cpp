@@ -14,6 +14,7 @@
 #include "run/fastest_motion.h"
 #include "run/independent_effects.h"
 #include "run/run_pipeline.h"
+#include "run/shared_rows.h"
 
 namespace gapscope {
 namespace {
@@ -142,6 +143,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
       loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");
     loaded.recordings.push_back(std::move(r));
   }
+  internal::run::require_own_rows(c, {}, loaded.recordings);
   return loaded;
 }
 

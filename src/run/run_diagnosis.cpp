@@ -22,6 +22,7 @@
 #include "run/read_gap.h"
 #include "run/run_simulator.h"
 #include "run/settle_rate.h"
+#include "run/shared_rows.h"
 #include "run/simulated_words.h"
 
 namespace gapscope {
@@ -118,6 +119,7 @@ DiagnosisRecordings load_for_diagnosis(const Configuration& c, const Progress& p
   DiagnosisRecordings all{load_recordings(c, UnevenRows::kStamped, progress), {}};
   require_possible_experiment(c, all.train.recordings.front().dt);
   all.held_out = load_held_out(c, progress);
+  internal::run::require_own_rows(c, all.train.recordings, all.held_out.recordings);
   const internal::run::SettledController settled =
       internal::run::settle_controller(c, all.train.recordings, all.held_out.recordings);
   all.controller = settled.known, all.sought = settled.sought;
