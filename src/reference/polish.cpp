@@ -17,6 +17,9 @@ constexpr int kShakes = 10;           ///< points nearby that are tried
 constexpr double kBeginning = 0.125;  ///< of the recordings, where initial states are sought anew
 constexpr double kClearly = 6.0;      ///< fall of the cost, in mean squares, that is no chance
 constexpr double kSmallestShake = 1.0, kLargestShake = 100.0;  ///< in standard errors
+constexpr double kOtherRing =
+    2.0;                       ///< times and parts of the contact's stiffness that are tried beside it [-]
+constexpr int kMostRings = 4;  ///< of the stiffness doubled or halved, one after the other
 
 void keep(const Solution& next, FreeRunMinima& polished) {
   polished.simulations += next.simulations;
@@ -69,6 +72,30 @@ void shake(const FitProblem& problem, FreeRunMinima& polished) {
     stop_point();
     const double size = log_uniform(generator, kSmallestShake, kLargestShake);
     keep(solve(problem, shaken(problem, polished.best, root, size, generator), 0.0, kTrial), polished);
+  }
+}
+
+/// A contact rings on after an impact, and a few rows each see where its ring is: another number of turns
+/// from impact to impact fits nearly as well, so minima lie side by side in its stiffness. The next ones are
+/// tried, and theirs, as long as they fit clearly better.
+void look_along_stiffness(const FitProblem& problem, FreeRunMinima& polished) {
+  for (std::size_t i = 0; i < problem.free_count(); ++i) {
+    const Parameter& p = problem.free_parameter(i);
+    if (p.id != drive_number(place::kContactStiffness)) continue;
+    double samples = 0.0;
+    for (const MotorTrace& r : problem.recordings) samples += static_cast<double>(r.size());
+    for (int ring = 0; ring < kMostRings; ++ring) {
+      const Solution from = polished.best;
+      for (const double times : {1.0 / kOtherRing, kOtherRing}) {
+        stop_point();
+        FitPoint beside = from;
+        const double stiffness = times * p.coordinate.physical(from.q[i]);
+        beside.q[i] = p.coordinate.solver(std::clamp(stiffness, p.low, p.high));
+        keep(solve(problem, beside, 0.0, kTrial), polished);
+      }
+      const double fall = from.mean_square_with_priors - polished.best.mean_square_with_priors;
+      if (!(fall * samples > kClearly)) return;
+    }
   }
 }
 
@@ -127,11 +154,11 @@ FreeRunMinima polish(const FitProblem& problem, const Solution& found) {
     if (renewed.changed) keep(solve(problem, {polished.best.q, renewed.starts}, 0.0, kFinal), polished);
   }
   const bool settled = polished.best.mean_square_with_priors <= found.mean_square_with_priors;
-  // An encoder on the load sees the motor in contact alone: minima of the free run lie side by side.
-  if (settled && !problem.structure.reads_load()) return polished;
   if (!settled) keep(over_growing_parts(problem, found), polished);
   if (!polished.best.usable()) return polished;
-  shake(problem, polished);
+  look_along_stiffness(problem, polished);
+  // An encoder on the load sees the motor in contact alone: minima of the free run lie side by side.
+  if (!settled || problem.structure.reads_load()) shake(problem, polished);
   const Solution last = solve(problem, polished.best, 0.0, kFinal);
   polished.simulations += last.simulations;
   if (last.usable()) polished.best = last;
