@@ -53,6 +53,16 @@ TEST(FreshRows, OfAnEncoderThatIsReadForEachRowAreNone) {
       << "all its bends are what rounding makes of lines, too";
 }
 
+/// A steady speed to and fro, without noise: the turns alone bend, at one distance.
+TEST(FreshRows, OfAMotionThatRepeatsItselfToTheCountAreNotToldToBeFilled) {
+  for (int k = 0; k < 40; ++k) {
+    std::vector<double> x;
+    for (int i = 0; i < 15000; ++i)
+      x.push_back(1e-4 * std::round((1.3 + 0.0773 * k) * std::abs(i % 1000 - 500) + 0.3));
+    EXPECT_EQ(fresh_rows(x, 1e-4).filling, Filling::kCannotBeTold) << k;
+  }
+}
+
 TEST(FreshRows, OfHeldReadingsTellHowManyRowsEachOfThemStandsAtAnySpeed) {
   for (const Encoder& e : kEncoders)
     for (const std::size_t n : {2u, 3u, 4u, 10u}) {
