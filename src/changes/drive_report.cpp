@@ -8,6 +8,7 @@
 
 #include "changes/loops.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/base/statistics.h"
 #include "results/diagnosis_result.h"
 #include "results/file_list.h"
 #include "results/run_result.h"
@@ -33,6 +34,7 @@ double crossing_frequency(const Recording& r) {
 }
 
 ExcitationFacts excited(const Recording& r) {
+  constexpr double kPeak = 0.99;  // of all samples: of noise alone the largest is another in each recording
   ExcitationFacts e;
   e.file = r.file;
   e.samples = static_cast<int>(r.size());
@@ -41,7 +43,9 @@ ExcitationFacts excited(const Recording& r) {
   e.position_rms = rms(r.position());
   if (r.u.empty()) return e;
   e.input_rms = rms(r.u);
-  for (const double u : r.u) e.input_peak = std::fmax(e.input_peak, std::abs(u));
+  std::vector<double> sizes;
+  for (const double u : r.u) sizes.push_back(std::abs(u));
+  e.input_peak = quantile(std::move(sizes), kPeak);
   e.input_frequency = crossing_frequency(r);
   return e;
 }

@@ -21,7 +21,7 @@ struct ExcitationFacts {
   double rate = kNaN;             ///< [Hz]
   double quantum = kNaN;          ///< of the encoder [rad]; 0: unknown
   double input_rms = kNaN;        ///< [unit of u]
-  double input_peak = kNaN;       ///< [unit of u]
+  double input_peak = kNaN;       ///< that 1 % of the samples exceed [unit of u]
   double input_frequency = kNaN;  ///< half the rate at which u crosses its mean, with hysteresis [Hz]
   double position_rms = kNaN;     ///< [rad]
 };

@@ -37,6 +37,8 @@ CheckedRecording checked_recording(const Configuration& c, Purpose purpose, cons
   judge_for_encoder(c.position_quantum(), c.recording->units.position == "counts", checked.inspection);
   for (Finding& f : checked.inspection.findings) tell_unit(f, c);
   if (c.encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(checked.inspection);
+  if (c.model.given && c.model.structure.has_load && c.model.structure.load == LoadKind::kLocked)
+    judge_for_locked_output(checked.inspection);
   judge_for(purpose, checked.inspection);
   checked.json = inspection_json(checked.inspection, resolved_reading(c));
   return checked;

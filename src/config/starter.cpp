@@ -269,6 +269,7 @@ Starter starter_configuration(RecordingConfig config, const EncoderConfig& encod
     judge_for_encoder(internal::config::position_quantum(encoder, config), config.units.position == "counts",
                       seen.back());
     if (encoder.sides == EncoderSides::kLoad) judge_for_load_encoder(seen.back());
+    if (known.model == StarterModel::kLocked) judge_for_locked_output(seen.back());
   }
   const RecordingFacts facts = facts_of_all(seen);
   const bool irregular = !options.resample_rate && !facts.uniform;

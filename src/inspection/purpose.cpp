@@ -35,6 +35,13 @@ std::string harmless(const Finding& f, Purpose purpose, const RecordingFacts& fa
   return "";
 }
 
+/// What is asked of the motion's reversals does not matter here.
+void need_no_period(Inspection& inspection, const char* found, const char* advice) {
+  for (Finding& f : inspection.findings)
+    if (f.rule == kReversalsRule && f.severity == Severity::kSpoils)
+      f.severity = Severity::kNote, f.found = found, f.advice = advice;
+}
+
 }  // namespace
 
 const char* to_string(Purpose purpose) {
@@ -43,14 +50,15 @@ const char* to_string(Purpose purpose) {
 }
 
 void judge_for_load_encoder(Inspection& inspection) {
-  for (Finding& f : inspection.findings) {
-    if (f.rule != kReversalsRule || f.severity != Severity::kSpoils) continue;
-    f.severity = Severity::kNote;
-    f.found = "of the detector alone, which reads impacts off the motor's position: on the load none shows";
-    f.advice =
-        "no other motion mends that: `gapscope fit` and `diagnose` take this side; for a reading without a "
-        "model record the motor's position as well";
-  }
+  need_no_period(
+      inspection,
+      "of the detector alone, which reads impacts off the motor's position: on the load none shows",
+      "no other motion mends that: `gapscope fit` and `diagnose` take this side; for a reading "
+      "without a model record the motor's position as well");
+}
+
+void judge_for_locked_output(Inspection& inspection) {
+  need_no_period(inspection, "of impacts alone: the loop of a locked output needs no period", "");
 }
 
 void judge_for(Purpose purpose, Inspection& inspection) {

@@ -103,5 +103,7 @@ void judge_for_encoder(double quantum, bool counts, Inspection& inspection);
 /// Of an encoder on the load: no detector reads a gap there, so what the motion lacks for one spoils nothing,
 /// and no motion is asked for.
 void judge_for_load_encoder(Inspection& inspection);
+/// Of an output that is held: a missing period, which impacts need, spoils nothing.
+void judge_for_locked_output(Inspection& inspection);
 
 }  // namespace gapscope
