@@ -177,7 +177,7 @@ const std::vector<BadInput> kCommandLines = {
     line("check_rate", "check r.csv --resample 0", "gapscope: --resample"),
     line("check_over_its_recording", "check r.csv -o ./r.csv", "./r.csv: is the input itself"),
     line("compare_one", "compare folder", "gapscope: DIR"),
-    line("compare_nothing", "compare folder nowhere", "folder/result.json: there is no such file"),
+    line("compare_nothing", "compare folder nowhere", "folder: has no result.json"),
     line("compare_into_a_file", "compare folder nowhere -o r.csv", "r.csv: is a file"),
     line("stream_and_configuration", "detect --stream c.yaml", "gapscope: CONFIG excludes --stream"),
     line("column_without_stream", "detect c.yaml --input i_q", "gapscope: --input requires --stream"),

@@ -81,7 +81,9 @@ TEST(ToldCommands, NoStandardErrorIsToldOfADifferenceThatHasNone) {
              "name: rig\nencoder: {bits: 18}\nsimulation: {rate: 1000, duration: 6, noise: 1.0e-5, seed: 5, "
              "excitation: {sine: {amplitude: 0.58, frequency: 1}}}\nmodel: " +
                  testing::kPaperModel);
-  const auto run = place.run("run c.yaml --set fit.max_iterations=1 --set fit.starts=1");
+  const auto run = place.run(
+      "run c.yaml --set fit.max_iterations=1 --set fit.starts=1 --set "
+      "'simulation.model.effects=[{motor_coulomb_friction: {level_nm: 0.02}}]'");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr(" not comparable: an interval is missing\n"));
 }
