@@ -79,7 +79,8 @@ TEST(Band, EndsWhereTheEncodersNoiseBeginsToEatTheInertia) {
   StampedTrace noisy = trace;
   std::mt19937_64 generator = random_stream(6, "noise");
   for (double& x : noisy.x) x += 2e-3 * normal(generator);
-  const FrequencyBand clean = choose_band({&trace, 1}, {}, {}, {}), rough = choose_band({&noisy, 1}, {}, {}, {});
+  const FrequencyBand clean = choose_band({&trace, 1}, {}, {}, {}),
+                      rough = choose_band({&noisy, 1}, {}, {}, {});
   EXPECT_LT(rough.hz, clean.hz);
   for (const Octave& o : rough.octaves)
     if (o.top_hz <= rough.hz && o.inertial > 0.1) {
