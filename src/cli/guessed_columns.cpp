@@ -97,7 +97,9 @@ RecordingArguments with_guesses(RecordingArguments a) {
   require_known_units(a);
   if (!a.columns.empty()) take_columns(a);
   if (!a.axis.empty()) return a;
-  ColumnGuess g = guess_columns(a.file, declared_columns(a, recorded_names(a.file)), a.rate > 0.0);
+  ColumnGuess declared = declared_columns(a, recorded_names(a.file));
+  declared.side = a.encoder().side();
+  ColumnGuess g = guess_columns(a.file, std::move(declared), a.rate > 0.0);
   if (!g.time.empty()) a.time = g.time;
   a.input = g.input, a.position = g.position, a.speed = g.speed;
   if (a.target.empty() && !g.target.empty() && a.gain.empty()) {

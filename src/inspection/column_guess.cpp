@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "base/shown.h"
 #include "base/text.h"
@@ -26,6 +27,7 @@ namespace {
 using internal::inspection::ColumnRole;
 using internal::inspection::likeness;
 using internal::inspection::shared_words;
+using internal::inspection::sidedness;
 using internal::recording::FieldKind;
 using internal::recording::kind_of_field;
 using internal::recording::TableForm;
@@ -89,15 +91,17 @@ bool has_numbers(const Seen& seen, const std::string& name) {
   });
 }
 
-/// The column whose name says the role best, and of these the one that shares most words with `beside`.
-std::string by_name(const Seen& seen, ColumnRole role, const std::string& beside,
+/// The column whose name says the role best, of these one that is of the side and none of the other, and of
+/// these the one that shares most words with `beside`.
+std::string by_name(const Seen& seen, ColumnRole role, EncoderSide side, const std::string& beside,
                     const std::vector<std::string>& taken) {
   std::string best;
-  std::pair<int, int> rank = {0, 0};
+  std::tuple<int, int, int> rank;
   for (const std::string& name : seen.names) {
     if (contains(taken, name) || !has_numbers(seen, name)) continue;
-    const std::pair<int, int> now = {likeness(name, role), beside.empty() ? 0 : shared_words(name, beside)};
-    if (now.first > 0 && now > rank) rank = now, best = name;
+    const std::tuple now = {likeness(name, role), sidedness(name, side),
+                            beside.empty() ? 0 : shared_words(name, beside)};
+    if (std::get<0>(now) > 0 && (best.empty() || now > rank)) rank = now, best = name;
   }
   return best;
 }
@@ -274,7 +278,7 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
   };
   const auto take = [&](std::string& column, ColumnRole role, const char* word, const std::string& beside) {
     if (!column.empty()) return;
-    column = element_of(seen, by_name(seen, role, beside, taken()));
+    column = element_of(seen, by_name(seen, role, guess.side, beside, taken()));
     if (!column.empty()) told.push_back(fmt::format("{} {}", word, shown(column)));
   };
   if (!rated) take(guess.time, ColumnRole::kTime, "time", "");
@@ -286,8 +290,8 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
   if (guess.position.empty()) take(guess.speed, ColumnRole::kSpeed, "speed", guess.input);
   const std::string& beside = guess.position.empty() ? guess.speed : guess.position;
   if (guess.target.empty() && guess.input.empty()) {
-    const std::string input = by_name(seen, ColumnRole::kInput, beside, taken());
-    const std::string target = by_name(seen, ColumnRole::kTarget, beside, taken());
+    const std::string input = by_name(seen, ColumnRole::kInput, guess.side, beside, taken());
+    const std::string target = by_name(seen, ColumnRole::kTarget, guess.side, beside, taken());
     if (target.empty() || !stays(seen, input)) take(guess.input, ColumnRole::kInput, "input", beside);
   }
   if (guess.input.empty()) take(guess.target, ColumnRole::kTarget, "target", beside);

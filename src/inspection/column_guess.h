@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gapscope/base/encoder_side.h"
 #include "gapscope/base/remark.h"
 #include "gapscope/recording/units.h"
 
@@ -14,6 +15,7 @@ struct ColumnGuess {
   std::string time_unit, input_unit, position_unit, speed_unit;  ///< empty: not known, or in the name
   RegisterForm input_form, position_form;  ///< of signed registers that were read as unsigned ones
   bool whole_positions = false;            ///< those of the first rows are whole numbers
+  EncoderSide side = EncoderSide::kMotor;  ///< whose position is looked for
   std::vector<Remark> told = {};           ///< what was taken for granted
 };
 

@@ -162,6 +162,16 @@ int likeness(const std::string& name, ColumnRole role) {
   return 0;
 }
 
+int sidedness(const std::string& name, EncoderSide side) {
+  const std::vector<std::string> words = words_of_name(stem_of(name));
+  const auto any = [&](std::initializer_list<const char*> of_side) {
+    return std::ranges::any_of(of_side, [&](const char* word) { return contains(words, word); }) ? 1 : 0;
+  };
+  const int to_motor =
+      any({"motor", "rotor", "drive"}) - any({"load", "link", "output", "out", "joint", "last", "abtrieb"});
+  return side == EncoderSide::kMotor ? to_motor : -to_motor;
+}
+
 int shared_words(const std::string& a, const std::string& b) {
   const auto parts = [](const std::string& name) {
     std::vector<std::string> all = words_of_name(name);

@@ -270,6 +270,23 @@ TEST(TableForm, TopicsThatAlternateMeetAtTheRowsOfThePosition) {
   }
 }
 
+/// The order of the columns says nothing of whose they are, their names do.
+TEST(TableForm, ThePositionOfTheSideThatIsAskedForIsTaken) {
+  const std::string rows = lines([](int i) {
+    return fmt::format("{:.4f},{:.8f},{:.8f},{:.8f}", kLogStep * i, input_at(i), position_at(i),
+                       0.9 * position_at(i));
+  });
+  for (const char* names : {"t,u,load_position,motor_position\n", "t,u,motor_position,load_position\n",
+                            "t,u,q_link,q_motor\n", "t,u,output_angle,motor_angle\n"}) {
+    const TemporaryFile file(names + rows);
+    ColumnGuess load;
+    load.side = EncoderSide::kLoad;
+    EXPECT_THAT(guess_columns(file.path(), {}, false).position, ::testing::HasSubstr("motor")) << names;
+    EXPECT_THAT(guess_columns(file.path(), load, false).position, Not(::testing::HasSubstr("motor")))
+        << names;
+  }
+}
+
 /// A servo's log has the voltage of its supply, which is no input, beside the goal that it follows.
 TEST(TableForm, ASupplyIsNoInputBesideAGoal) {
   const auto log = [](bool goal, double swing) {
