@@ -278,7 +278,8 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
   };
   const auto take = [&](std::string& column, ColumnRole role, const char* word, const std::string& beside) {
     if (!column.empty()) return;
-    column = element_of(seen, by_name(seen, role, guess.side, beside, taken()));
+    const EncoderSide side = role == ColumnRole::kInput ? EncoderSide::kMotor : guess.side;  // u drives it
+    column = element_of(seen, by_name(seen, role, side, beside, taken()));
     if (!column.empty()) told.push_back(fmt::format("{} {}", word, shown(column)));
   };
   if (!rated) take(guess.time, ColumnRole::kTime, "time", "");
@@ -290,7 +291,7 @@ void take_by_name(const Seen& seen, bool rated, ColumnGuess& guess, const std::s
   if (guess.position.empty()) take(guess.speed, ColumnRole::kSpeed, "speed", guess.input);
   const std::string& beside = guess.position.empty() ? guess.speed : guess.position;
   if (guess.target.empty() && guess.input.empty()) {
-    const std::string input = by_name(seen, ColumnRole::kInput, guess.side, beside, taken());
+    const std::string input = by_name(seen, ColumnRole::kInput, EncoderSide::kMotor, beside, taken());
     const std::string target = by_name(seen, ColumnRole::kTarget, guess.side, beside, taken());
     if (target.empty() || !stays(seen, input)) take(guess.input, ColumnRole::kInput, "input", beside);
   }

@@ -21,6 +21,7 @@ constexpr double kSameTime = 0.25;  ///< of a step, to either side: rows are mat
 /// Whether b, `later` [s] than it says, and a have the same rows from one on through `kSharedSteps`.
 bool share_rows(const Recording& a, const Recording& b, double later) {
   const std::vector<double>&x = a.position(), &y = b.position();
+  if (a.u.size() != x.size() || b.u.size() != y.size()) return false;
   const double near = kSameTime * std::min(a.dt, b.dt);
   int steps = 0;
   double before = kNaN;

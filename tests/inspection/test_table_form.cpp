@@ -287,6 +287,17 @@ TEST(TableForm, ThePositionOfTheSideThatIsAskedForIsTaken) {
   }
 }
 
+/// On whichever side the encoder is, the motor's torque drives.
+TEST(TableForm, TheInputIsTheMotorsWhereverTheEncoderIs) {
+  const TemporaryFile file("t,load_torque,motor_torque,load_angle\n" + lines([](int i) {
+                             return fmt::format("{:.4f},{:.8f},{:.8f},{:.8f}", kLogStep * i, 0.1, input_at(i),
+                                                position_at(i));
+                           }));
+  ColumnGuess load;
+  load.side = EncoderSide::kLoad;
+  EXPECT_EQ(guess_columns(file.path(), load, false).input, "motor_torque");
+}
+
 /// A servo's log has the voltage of its supply, which is no input, beside the goal that it follows.
 TEST(TableForm, ASupplyIsNoInputBesideAGoal) {
   const auto log = [](bool goal, double swing) {
