@@ -15,7 +15,9 @@ constexpr double kFewStriking = 0.3;  ///< of the half periods
 
 /// Mean of u over what it swings by, from which on no contact opens, whatever its load weighs: the torque
 /// that passes through it swings by a share of what u does, about the same mean. Of gravity_shut 1 to 12 it
-/// is 0.55 to 15, above 1 in eleven, of high_friction 1 to 6, which nothing leans on, at most 0.03.
+/// is 0.55 to 15, above 1 in eleven, of high_friction 1 to 6, which nothing leans on, at most 0.03. Of those
+/// twelve half takes the one of 0.55 as well, whose contact may open by this alone, double leaves two (1.2
+/// and 1.5).
 constexpr double kHeldClosed = 1.0;
 
 /// No impact stands out, although every stroke left its marks, and there are gaps whose impacts would be more
