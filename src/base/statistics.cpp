@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/normal.h"
+
 namespace gapscope {
 
 double mean(std::span<const double> values) {
@@ -39,6 +41,12 @@ double robust_std(const std::vector<double>& values) {
   deviations.reserve(values.size());
   for (const double v : values) deviations.push_back(std::abs(v - centre));
   return 1.4826 * median(std::move(deviations));
+}
+
+double student_975(double freedom) {
+  const double z = kNormal95, z3 = z * z * z, z5 = z3 * z * z;
+  if (freedom < 1.5) return 12.71;
+  return z + (z3 + z) / (4.0 * freedom) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
 }
 
 Interval wilson(int successes, int trials, double z) {

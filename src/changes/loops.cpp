@@ -16,13 +16,6 @@ constexpr std::size_t kLoaded = 35;  ///< of them at its end: the flank, from 0.
 constexpr std::size_t kDrawn = 5;    ///< one step of so many is drawn
 constexpr double kFree = 0.5;        ///< share of the lost motion over which x1 runs free: mostly
 
-/// 97.5 % point of Student's t, by the first terms of its series in one over the degrees of freedom.
-double student(double freedom) {
-  const double z = kNormal95, z3 = z * z * z, z5 = z3 * z * z;
-  if (freedom < 1.5) return 12.71;
-  return z + (z3 + z) / (4.0 * freedom) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
-}
-
 double variance_of_mean(const std::vector<double>& values) {
   const double centre = mean(values);
   double sum = 0.0;
@@ -56,7 +49,7 @@ struct Branches {
 LoopMean mean_of(const std::vector<double>& values) {
   if (values.size() < 3) return {};
   return {mean(values),
-          student(static_cast<double>(values.size()) - 1.0) * std::sqrt(variance_of_mean(values))};
+          student_975(static_cast<double>(values.size()) - 1.0) * std::sqrt(variance_of_mean(values))};
 }
 
 /// The area of the loop over twice the travel.
@@ -64,7 +57,7 @@ LoopMean friction_of(const Branches& b) {
   const double per = 1.0 / (2.0 * mean(b.travel));
   const double freedom = static_cast<double>(b.rising.size() + b.falling.size()) - 2.0;
   const double error = std::sqrt(variance_of_mean(b.rising) + variance_of_mean(b.falling));
-  return {(mean(b.falling) - mean(b.rising)) * per, student(freedom) * error * per};
+  return {(mean(b.falling) - mean(b.rising)) * per, student_975(freedom) * error * per};
 }
 
 /// Up and down again.
