@@ -44,9 +44,15 @@ const LawKey kDeadBand = {"dead_band",
 
 const LawKey kFallsAt = {"falls_at",
                          {1e-9, 1e6, "rad"},
-                         "error at which the gain has fallen to 1/sqrt(2) of that of small ones",
+                         "error beyond which the gain falls: e/(1 + |e/falls_at|^n)^(1/n) stands for e",
                          kFixed,
                          &DriveController::falls_at};
+const LawKey kFallsSharpness = {
+    "falls_sharpness",
+    {0.1, 100.0, ""},
+    "the n of falls_at: 1 falls from the smallest errors on, a large one limits the error",
+    kFixed,
+    &DriveController::falls_sharpness};
 
 const LawKeys kPositionAlone = {
     {"gain", {-kGainMost, kGainMost, "unit of u per rad"}, "of the position error", at::kGain},
@@ -62,11 +68,13 @@ const LawKeys kPositionAlone = {
     kDelay,
     kSaturation,
     kDeadBand,
-    kFallsAt};
+    kFallsAt,
+    kFallsSharpness};
 const LawKeys kPositionOfCascade = {
     {"gain", {-kGainMost, kGainMost, "1/s"}, "the speed that an error of position asks for", at::kGain},
     kDeadBand,
-    kFallsAt};
+    kFallsAt,
+    kFallsSharpness};
 const LawKeys kVelocity = {
     {"gain", {-kGainMost, kGainMost, "unit of u s/rad"}, "of the error of the speed", at::kSpeedGain},
     {"integral",
@@ -195,6 +203,7 @@ void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const Con
   out.open(name);
   for (const LawKey& key : keys) {
     if (model.rate_sought && key.fixed == &DriveController::rate) continue;
+    if (key.fixed == &DriveController::falls_sharpness && !(model.fixed.falls_at < kInfinity)) continue;
     const std::string unit = replaced(key.range.unit, "unit of u", unit_of_output);
     if (key.fixed == nullptr) {
       const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(key.number)];

@@ -24,9 +24,10 @@ enum class ControllerKind {
 ///   velocity   y = speed_gain v + speed_integral ∫v dt,   v = target − ẋ
 ///   cascade    the same with v = gain e − ẋ
 /// y limited to ±saturation, where the integral rests. It acts `delay` later and is held until the next one
-/// does. Where the gain falls with the error, e / √(1 + (e/falls_at)²) stands for e. The target is the host's
-/// goal, or where the firmware's own profile and filter have come to on the way to it (ShapedGoal). T is
-/// double, or a Jet where derivatives are wanted.
+/// does. Where the gain falls with the error, e / (1 + |e/falls_at|^n)^(1/n) with n = falls_sharpness stands
+/// for e: 1 falls from the smallest errors on, a large one limits the error. The target is the host's goal,
+/// or where the firmware's own profile and filter have come to on the way to it (ShapedGoal). T is double, or
+/// a Jet where derivatives are wanted.
 template <class T>
 struct ControllerOf {
   ControllerKind kind = ControllerKind::kPosition;
@@ -40,7 +41,8 @@ struct ControllerOf {
   T delay{};                      ///< from the reading of the position to the change of the input [s]
   double saturation = kInfinity;  ///< of y [input unit]
   double dead_band = 0.0;         ///< [rad]
-  double falls_at = kInfinity;    ///< error at which the gain is 1/√2 of that of small ones [rad]
+  double falls_at = kInfinity;    ///< error beyond which the gain falls [rad]
+  double falls_sharpness = 2.0;   ///< how suddenly it does, see above
   double profile_speed = kInfinity, profile_acceleration = kInfinity;  ///< [rad/s], [rad/s²]
   double goal_filter = 0.0;   ///< time constant of a first-order filter of the goal [s]
   double off_damping = kNaN;  ///< of the motor's side while it is switched off; NaN: as ever [N m s/rad]
@@ -146,8 +148,10 @@ class ControllerLaw {
     T e = target - position;
     if (e <= c_.dead_band && e >= -c_.dead_band) e = T(0.0);
     if (c_.falls_at < kInfinity) {
-      using std::sqrt;
-      e = e / sqrt(1.0 + (e / c_.falls_at) * (e / c_.falls_at));
+      using std::abs, std::pow, std::sqrt;
+      const T over = e / c_.falls_at;
+      const double n = c_.falls_sharpness;
+      e = e / (n == 2.0 ? T(sqrt(1.0 + over * over)) : T(pow(1.0 + pow(abs(over), n), 1.0 / n)));
     }
     return c_.kind == ControllerKind::kPosition ? e : T(c_.gain * e - speed);
   }
