@@ -98,11 +98,8 @@ std::optional<LoopFit> fitted_loop(const Configuration& c, const DiagnosisRecord
   LoopFitOptions asked;
   asked.progress = options.progress, asked.threads = options.threads;
   asked.gain_is_sought = is_sought(c, controller_place::kGain);
-  asked.delay_is_sought = is_sought(c, controller_place::kDelay) || !(known->delay > 0.0);
-  asked.goal_delay_is_sought = !(known->goal_delay > 0.0);
-  asked.saturation_is_sought = !(known->saturation < kInfinity);
-  asked.fall_is_sought = !(known->falls_at < kInfinity);
-  asked.off_damping_is_sought = std::isnan(known->off_damping);
+  asked.delay_is_sought = is_sought(c, controller_place::kDelay);
+  asked.rate_is_sought = c.controller && c.controller->rate_settled;
   return unless_finishing([&] { return fit_in_loop(traces_of(train), *model, *known, asked); })
       .value_or(std::nullopt);
 }

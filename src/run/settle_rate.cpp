@@ -36,7 +36,7 @@ Configuration with_settled_rate(const Configuration& given, const Progress& prog
                                 std::vector<std::string>& said) {
   Configuration c = given;
   if (!c.recording || !c.controller || !c.controller->rate_sought || !c.model.given) return c;
-  c.controller->rate_sought = false;
+  c.controller->rate_sought = false, c.controller->rate_settled = true;
   if (c.recording->reading.columns.reads_input()) return c;
   require_reference_model(c);
   Configuration first = c;

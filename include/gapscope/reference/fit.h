@@ -58,7 +58,8 @@ struct ModelEffect {
 struct ControllerModel {
   DriveController fixed;                                         ///< its laws, rate, limit and dead band
   std::array<ParameterSetting, kControllerNumberCount> numbers;  ///< in the order of kControllerNumbers
-  bool rate_sought = false;  ///< at its rows or between them, as the recordings prefer
+  bool rate_sought = false;   ///< at its rows or between them, as the recordings prefer
+  bool rate_settled = false;  ///< by the recordings: a beginning, see fit_in_loop()
 
   static ControllerModel known(const DriveController& controller);  ///< nothing is estimated
   bool estimates() const;
