@@ -18,11 +18,13 @@ namespace internal::diagnosis {
 namespace {
 
 constexpr double kWorthHaving = 0.02;  ///< of the error, that an addition takes
-constexpr double kStep = 0.01;         ///< of a number, by which its derivative is taken
 constexpr double kSmallError = 2e-3;   ///< below which an error weighs as a square [rad]
 constexpr double kLost = 10.0;         ///< error of a motion that diverges [rad]
 constexpr double kSettled = 2e-3;      ///< of the error, below which a step is the last
-constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 10;
+constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 20;
+constexpr int kRounds = 2;  ///< a limit that was not reached is looked for once more when all else is there
+constexpr std::size_t kTriedOn = 4;      ///< beginnings of additions that come nearest after one step
+constexpr double kAlike = 1.0;           ///< time within which what is left is taken as alike [s]
 constexpr int kTrials = 6;               ///< of a step that does not lessen the error
 constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop [Hz]
 constexpr std::size_t kFirstRows = 5;    ///< over which the first speed is read
@@ -81,11 +83,32 @@ class LoopSearch {
     return least;
   }
 
+  /// Half of each number's interval, in units of its move.
+  Eigen::VectorXd spread(const Loop& loop, const std::vector<LoopPlace>& free) const {
+    const Normal normal = normal_at(loop, free);
+    const auto n = normal.slope.size(), stretches = normal.slopes.cols();
+    if (stretches <= n) return Eigen::VectorXd::Constant(n, kInfinity);
+    const auto inverse = normal.square.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd moves = inverse * normal.slopes;
+    const double freedom = static_cast<double>(stretches - n);
+    const double few = static_cast<double>(stretches) / freedom;
+    Eigen::ArrayXd half = student_975(freedom) * (few * moves.rowwise().squaredNorm().array()).sqrt();
+    for (Eigen::Index k = 0; k < n; ++k)
+      half(k) += free[static_cast<std::size_t>(k)].unseen(loop, turn(loop));
+    return (normal.square.diagonal().array() > 0.0).select(half, kInfinity);  // what nothing depends on
+  }
+
  private:
   struct Normal {
     Eigen::MatrixXd square;
     Eigen::VectorXd slope;
+    Eigen::MatrixXd slopes;  ///< the same of each stretch, [numbers × stretches]
   };
+
+  /// Of the firmware [s].
+  double turn(const Loop& loop) const {
+    return loop.controller.rate > 0.0 ? 1.0 / loop.controller.rate : traces_.front().dt;
+  }
 
   std::vector<double> positions(const Loop& loop, std::size_t r) const {
     return positions_under_controller(plant_of(loop.model), loop.controller, traces_[r],
@@ -95,25 +118,34 @@ class LoopSearch {
   Normal normal_at(const Loop& loop, const std::vector<LoopPlace>& free) const {
     const std::size_t n = free.size();
     std::vector<Loop> moved(n, loop);
-    for (std::size_t k = 0; k < n; ++k) free[k].move(moved[k], kStep);
+    std::vector<double> by(n);
+    for (std::size_t k = 0; k < n; ++k) free[k].move(moved[k], by[k] = free[k].trial(loop, turn(loop)));
     std::vector<Normal> of(traces_.size());
-    parallel_for(traces_.size(), threads_, [&](std::size_t r) { of[r] = normal_of(loop, moved, r); });
+    parallel_for(traces_.size(), threads_, [&](std::size_t r) { of[r] = normal_of(loop, moved, by, r); });
     Normal sum = of.front();
-    for (std::size_t r = 1; r < of.size(); ++r) sum.square += of[r].square, sum.slope += of[r].slope;
+    for (std::size_t r = 1; r < of.size(); ++r) {
+      sum.square += of[r].square, sum.slope += of[r].slope;
+      const Eigen::Index had = sum.slopes.cols();
+      sum.slopes.conservativeResize(Eigen::NoChange, had + of[r].slopes.cols());
+      sum.slopes.rightCols(of[r].slopes.cols()) = of[r].slopes;
+    }
     return sum;
   }
 
-  Normal normal_of(const Loop& loop, const std::vector<Loop>& moved, std::size_t r) const {
+  Normal normal_of(const Loop& loop, const std::vector<Loop>& moved, const std::vector<double>& by,
+                   std::size_t r) const {
     const MotorTrace& trace = traces_[r];
     const auto rows = static_cast<Eigen::Index>(trace.size()), n = static_cast<Eigen::Index>(moved.size());
-    Normal normal{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+    const auto stretches = std::max<Eigen::Index>(1, std::llround(trace.elapsed(trace.size() - 1) / kAlike));
+    Normal normal{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, stretches)};
     const std::vector<double> x = positions(loop, r);
     if (x.empty()) return normal;
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows, n);
     for (Eigen::Index k = 0; k < n; ++k) {
       const std::vector<double> then = positions(moved[static_cast<std::size_t>(k)], r);
       for (Eigen::Index i = 0; i < rows && !then.empty(); ++i)
-        slopes(i, k) = (then[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i)]) / kStep;
+        slopes(i, k) = (then[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i)]) /
+                       by[static_cast<std::size_t>(k)];
     }
     Eigen::VectorXd left(rows), weight(rows);
     for (Eigen::Index i = 0; i < rows; ++i) {
@@ -121,7 +153,9 @@ class LoopSearch {
       weight(i) = 1.0 / (std::max(std::abs(left(i)), kSmallError) * static_cast<double>(rows));
     }
     normal.square = slopes.transpose() * weight.asDiagonal() * slopes;
-    normal.slope = slopes.transpose() * weight.cwiseProduct(left);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      normal.slopes.col(i * stretches / rows) += weight(i) * left(i) * slopes.row(i).transpose();
+    normal.slope = normal.slopes.rowwise().sum();
     return normal;
   }
 
@@ -129,12 +163,118 @@ class LoopSearch {
   int threads_;
 };
 
-/// At the rows, or between them.
-void settle_rate(const LoopSearch& search, Loop& loop) {
-  Loop other = loop;
-  other.controller.rate = loop.controller.rate > 0.0 ? 0.0 : kBetweenRows;
-  if (search.error(other) < (1.0 - kWorthHaving) * search.error(loop)) loop = other;
-}
+/// What the recordings ask for, one after the other.
+class LoopBuilder {
+ public:
+  LoopBuilder(std::span<const MotorTrace> all, const DriveController& declared, const LoopFitOptions& options)
+      : all_(all),
+        few_(few_of(all)),
+        search_(few_, options.threads),
+        declared_(declared),
+        options_(options) {}
+
+  /// At the rows, or between them.
+  void settle_rate(Loop& loop) const {
+    if (!options_.rate_is_sought) return;
+    Loop other = loop;
+    other.controller.rate = loop.controller.rate > 0.0 ? 0.0 : kBetweenRows;
+    const double least = refine(loop, kTrySteps);
+    if (refine(other, kTrySteps) < (1.0 - kWorthHaving) * least) loop = other;
+  }
+
+  /// Adds what helps most, until nothing does.
+  void add_to(Loop& loop, std::vector<LoopPart>& parts) const {
+    std::vector<Loop> from{loop};
+    double least = refine(loop, kFirstSteps);
+    from.push_back(loop);
+    if (std::optional<Loop> held = held_at_rest(loop, few_)) {
+      from.push_back(*held);
+      const double error = refine(*held, kFirstSteps);
+      if (error * (1.0 - kWorthHaving) < least) loop = *held, least = error;
+    }
+    while (least > all_.front().quantum) {
+      const std::vector<LoopAddition> left = additions_to(loop, few_);
+      options_.progress(
+          fmt::format("fitting the closed loop: {} added, {} to try", parts.size(), left.size()));
+      const Try best = best_of(left, from);
+      if (!(best.error < (1.0 - kWorthHaving) * least)) return;
+      loop = best.loop, least = best.error, from = {loop};
+      const std::vector<LoopPart>& added = left[best.which].parts;
+      parts.insert(parts.end(), added.begin(), added.end());
+    }
+  }
+
+  /// What came first may be what a later part is: each is left out once, and stays out where nothing is lost.
+  void thin_out(Loop& loop, std::vector<LoopPart>& parts) const {
+    double least = refine(loop, kFirstSteps);
+    for (auto part = parts.begin(); part != parts.end();) {
+      Loop without = loop;
+      part->take_out(without);
+      const double error = refine(without, kFirstSteps);
+      const bool is_needed = least < (1.0 - kWorthHaving) * error;
+      if (!is_needed) loop = without, least = error;
+      part = is_needed ? part + 1 : parts.erase(part);
+    }
+  }
+
+  /// What makes the loop act later, in place of what was found first to do so.
+  void exchange(Loop& loop, std::vector<LoopPart>& parts) const {
+    double least = refine(loop, kFirstSteps);
+    for (LoopPart& part : parts) {
+      if (!part.is_late) continue;
+      Loop without = loop;
+      part.take_out(without);
+      std::vector<LoopAddition> others = additions_to(without, few_);
+      std::erase_if(others, [](const LoopAddition& a) { return !a.parts.front().is_late; });
+      const Try best = best_of(others, {without});
+      if (!(best.error < (1.0 - kWorthHaving) * least)) continue;
+      loop = best.loop, least = best.error, part = others[best.which].parts.front();
+    }
+  }
+
+  /// Share of the error that its law leaves, over the law that was declared.
+  double left_by_law(const Loop& loop, const std::vector<LoopPart>& parts) const {
+    Loop declared = loop;
+    for (const LoopPart& part : parts)
+      if (part.of_law) part.take_out(declared);
+    return search_.error(loop) / refine(declared, kFirstSteps);
+  }
+
+ private:
+  struct Try {
+    Loop loop;
+    std::size_t which = 0;  ///< of the additions
+    double error = kLost;
+  };
+
+  double refine(Loop& loop, int steps) const {
+    return search_.refine(loop, places_of(loop, declared_, options_), steps);
+  }
+
+  /// Every one gets a step, and those that come nearest the others.
+  Try best_of(const std::vector<LoopAddition>& additions, const std::vector<Loop>& from) const {
+    std::vector<Try> tries;
+    for (std::size_t a = 0; a < additions.size(); ++a)
+      for (const double start : additions[a].starts)
+        for (const Loop& loop : from) {
+          Try t{loop, a};
+          additions[a].put(t.loop, start);
+          t.error = refine(t.loop, 1);
+          tries.push_back(std::move(t));
+        }
+    const auto nearer = [](const Try& a, const Try& b) { return a.error < b.error; };
+    std::ranges::stable_sort(tries, nearer);
+    tries.resize(std::min(tries.size(), kTriedOn));
+    for (Try& t : tries) t.error = refine(t.loop, kTrySteps);
+    return tries.empty() ? Try() : *std::ranges::min_element(tries, nearer);
+  }
+
+  std::span<const MotorTrace> all_;
+  std::vector<MotorTrace> few_;
+  LoopSearch search_;
+  const DriveController& declared_;
+  const LoopFitOptions& options_;
+};
 
 }  // namespace
 }  // namespace internal::diagnosis
@@ -145,42 +285,31 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
                                    const DriveController& controller, const LoopFitOptions& options) {
   GAPSCOPE_REQUIRE(!recordings.empty());
   const id::LoopSearch search(recordings, options.threads);
-  id::Loop loop{model, controller};
+  id::Loop loop{id::bounded(model), controller};
   LoopFit fit;
   fit.mae_before = search.error(loop);
+  if (options.rate_is_sought) loop.controller.rate = id::kBetweenRows;
   if (!(fit.mae_before < id::kLost)) return {};
-  std::vector<id::LoopPlace> free = id::places_of(loop, options);
   options.progress("fitting the closed loop");
-  if (options.rate_is_sought) id::settle_rate(search, loop);
-  const std::vector<MotorTrace> few = id::few_of(recordings);
-  const id::LoopSearch quick(few, options.threads);
-  double least = quick.refine(loop, free, id::kFirstSteps);
-  std::vector<id::LoopAddition> left = id::additions_to(loop, recordings, options);
-  for (bool helps = true; helps && !left.empty() && least > recordings.front().quantum;) {
-    options.progress(
-        fmt::format("fitting the closed loop: {} added, {} to try", fit.added.size(), left.size()));
-    helps = false;
-    id::Loop best;
-    std::size_t which = 0;
-    double best_error = (1.0 - id::kWorthHaving) * least;
-    for (std::size_t a = 0; a < left.size(); ++a)
-      for (const double start : left[a].starts) {
-        id::Loop next = loop;
-        left[a].put(next, start);
-        const double error = quick.refine(next, id::places_of(next, options), id::kTrySteps);
-        if (error < best_error) best = next, best_error = error, which = a, helps = true;
-      }
-    if (!helps) break;
-    if (left[which].of_law) fit.left_by_law *= best_error / least;
-    loop = best, least = best_error;
-    fit.added.push_back(left[which].key);
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
+  const id::LoopBuilder builder(recordings, controller, options);
+  builder.settle_rate(loop);
+  std::vector<id::LoopPart> parts;
+  for (int round = 0; round < id::kRounds; ++round) {
+    builder.add_to(loop, parts);
+    builder.settle_rate(loop);
+    builder.thin_out(loop, parts);
+    builder.exchange(loop, parts);
   }
-  if (options.rate_is_sought) id::settle_rate(search, loop);
-  free = id::places_of(loop, options);
+  fit.left_by_law = builder.left_by_law(loop, parts);
+  for (const id::LoopPart& part : parts) fit.added.push_back(part.key);
+  const std::vector<id::LoopPlace> free = id::places_of(loop, controller, options);
   fit.mae_after = search.refine(loop, free, id::kLastSteps);
-  for (const id::LoopPlace& place : free) fit.numbers.push_back(place.told(loop));
+  const Eigen::VectorXd spread = search.spread(loop, free);
+  for (std::size_t k = 0; k < free.size(); ++k)
+    fit.numbers.push_back(free[k].told(loop, spread(static_cast<Eigen::Index>(k))));
   fit.model = loop.model, fit.controller = loop.controller;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    fit.model.parameters[i].low = model.parameters[i].low;
   for (const MotorTrace& trace : recordings)
     fit.fitted_runs.push_back(run_in_loop(trace, fit.model, fit.controller));
   return fit;

@@ -8,14 +8,53 @@
 namespace gapscope::internal::diagnosis {
 namespace {
 
-constexpr double kLeastOf = 1e-6;   ///< of a number that is no less than zero, where nothing bounds it
+/// Of a number that is no less than zero, where nothing bounds it: a hundredth of its beginning. A drive of
+/// next to no inertia is slow to simulate and no other one for that.
+constexpr double kLeastOf = 1e-2;
 constexpr double kMostTimes = 1e3;  ///< over its beginning, at most
 /// Of the torque that the drive usually brings, with which friction begins.
 constexpr double kFirstShare = 0.2;
+constexpr double kSpeedOver = 0.03;  ///< time over which a speed is read [s]
+constexpr double kFast = 0.99;       ///< quantile of the speeds, with which a profile begins
+constexpr double kRise = 0.1;        ///< time in which it comes to that speed at first [s]
+
+/// Of the speed at which its whole output is lost in damping, which is a few times the one that it goes with.
+constexpr double kMostDamped = 0.3;
+constexpr double kInertia = 1.5;  ///< that of what hangs there, with which a drive begins
+
+const LawNumber
+    kGain = {&DriveController::gain, "controller.position.gain", "unit of u/rad", kNaN, 1e-9, 1e9},
+    kDelay = {&DriveController::delay, "controller.position.delay", "s", 0.0, 1e-5, 0.3},
+    kGoalDelay = {&DriveController::goal_delay, "controller.goal_delay_s", "s", 0.0, 1e-4, 0.5},
+    kGoalFilter = {&DriveController::goal_filter, "controller.goal_filter_s", "s", 0.0, 1e-4, 5.0},
+    kProfileSpeed =
+        {&DriveController::profile_speed, "controller.profile.speed", "rad/s", kInfinity, 1e-3, 1e4},
+    kProfileAcceleration = {&DriveController::profile_acceleration,
+                            "controller.profile.acceleration",
+                            "rad/s^2",
+                            kInfinity,
+                            1e-2,
+                            1e6},
+    kSaturation =
+        {&DriveController::saturation, "controller.position.saturation", "unit of u", kInfinity, 1e-6, 1e9},
+    kFallsAt = {&DriveController::falls_at, "controller.position.falls_at", "rad", kInfinity, 1e-4, 100.0},
+    kOffDamping = {&DriveController::off_damping, "controller.off_damping", "N m s/rad", kNaN, 1e-9, 1e9};
+const LawNumber kFallsSharpness = {
+    &DriveController::falls_sharpness, "controller.position.falls_sharpness", "", 2.0, 0.5, 20.0};
+const LawNumber* const kLaw[] = {
+    &kGain,           &kGoalDelay,  &kDelay,        &kSaturation,          &kFallsAt,
+    &kFallsSharpness, &kOffDamping, &kProfileSpeed, &kProfileAcceleration, &kGoalFilter};
 
 bool has(const ReferenceModel& model, const char* name) {
   return std::any_of(model.effects.begin(), model.effects.end(),
                      [&](const ModelEffect& e) { return e.entry == find_effect(name); });
+}
+
+/// Its first number, 0 where the loop has none of it.
+double level_of(const Loop& loop, const char* name) {
+  for (const ModelEffect& e : loop.model.effects)
+    if (e.entry == find_effect(name)) return e.parameters[0].value;
+  return 0.0;
 }
 
 ModelEffect effect_with(const char* name, std::initializer_list<ParameterSetting> settings) {
@@ -51,20 +90,24 @@ double largest_supply(std::span<const MotorTrace> recordings) {
   return most;
 }
 
-double largest_error(std::span<const MotorTrace> recordings) {
-  double most = 0.0;
-  for (const MotorTrace& t : recordings)
-    for (std::size_t i = 0; i < t.size(); ++i)
-      most = std::max(most, std::abs(t.command->target[t.command_first + i] - t.x1[i]));
-  return most;
-}
-
-double usual_error(std::span<const MotorTrace> recordings) {
+/// Of goal and position [rad].
+std::vector<double> errors_of(std::span<const MotorTrace> recordings) {
   std::vector<double> sizes;
   for (const MotorTrace& t : recordings)
     for (std::size_t i = 0; i < t.size(); ++i)
       sizes.push_back(std::abs(t.command->target[t.command_first + i] - t.x1[i]));
-  return median(std::move(sizes));
+  return sizes;
+}
+
+/// With which the drive goes where it goes fast [rad/s].
+double usual_top_speed(std::span<const MotorTrace> recordings) {
+  std::vector<double> speeds;
+  for (const MotorTrace& t : recordings) {
+    const auto rows = static_cast<std::size_t>(std::ceil(kSpeedOver / t.dt));
+    for (std::size_t i = rows; i < t.size(); i += rows)
+      speeds.push_back(std::abs(t.x1[i] - t.x1[i - rows]) / (t.elapsed(i) - t.elapsed(i - rows)));
+  }
+  return speeds.empty() ? 0.0 : quantile(std::move(speeds), kFast);
 }
 
 /// So many times the torque per unit of the input, with the same limit of torque.
@@ -73,6 +116,11 @@ void more_torque(double times, Loop& loop) {
   if (!constant.estimate) return;
   constant.value *= times;
   if (std::isfinite(loop.controller.saturation)) loop.controller.saturation /= times;
+}
+
+/// Of an error, where the gain falls.
+double share_left(const DriveController& c, double error) {
+  return std::pow(1.0 + std::pow(error / c.falls_at, c.falls_sharpness), -1.0 / c.falls_sharpness);
 }
 
 bool is_ever_off(std::span<const MotorTrace> recordings) {
@@ -123,141 +171,229 @@ PlantModel<double> plant_of(const ReferenceModel& model) {
   return plant;
 }
 
+ReferenceModel bounded(ReferenceModel model) {
+  for (ParameterSetting& p : model.parameters)
+    if (p.estimate && std::isnan(p.low) && p.value > 0.0) p.low = kLeastOf * p.value;
+  return model;
+}
+
 double LoopPlace::value(const Loop& loop) const {
-  if (is_goal_delay_) return loop.controller.goal_delay;
-  if (member_ != nullptr) return loop.controller.*member_;
+  if (law_ != nullptr) return loop.controller.*law_->member;
   ReferenceModel model = loop.model;
   return reference::setting_of(model, id_).value;
 }
 
 void LoopPlace::set(double value, Loop& loop) const {
-  if (is_goal_delay_)
-    loop.controller.goal_delay = value;
-  else if (member_ != nullptr)
-    loop.controller.*member_ = value;
+  if (law_ != nullptr)
+    loop.controller.*law_->member = value;
   else
     reference::setting_of(loop.model, id_).value = value;
 }
 
-void LoopPlace::move(Loop& loop, double by) const {
-  const double v = value(loop);
-  set(std::clamp(scale_ > 0.0 ? v + by * scale_ : v * std::exp(by), low_, high_), loop);
+double LoopPlace::moved(double value, double by) const {
+  return std::clamp(scale_ > 0.0 ? value + by * scale_ : value * std::exp(by), low_, high_);
 }
 
-LoopNumber LoopPlace::told(const Loop& loop) const {
+void LoopPlace::move(Loop& loop, double by) const { set(moved(value(loop), by), loop); }
+
+double LoopPlace::trial(const Loop& loop, double turn) const {
+  constexpr double kOfItself = 0.01;
+  return law_ == &kGoalDelay ? std::max(kOfItself, std::log1p(turn / value(loop))) : kOfItself;
+}
+
+double LoopPlace::unseen(const Loop& loop, double turn) const {
+  return law_ == &kGoalDelay ? std::log1p(0.5 * turn / value(loop)) : 0.0;
+}
+
+LoopNumber LoopPlace::told(const Loop& loop, double spread) const {
   const double v = value(loop);
-  if (is_goal_delay_) return {"controller.goal_delay_s", "s", v};
-  if (member_ != nullptr) return {key_, unit_, v};
+  const Interval ci95{moved(v, -spread), moved(v, spread)};
+  if (law_ != nullptr) return {law_->key, law_->unit, v, ci95};
   if (id_.effect == reference::ParameterId::kDrive)
-    return {kDriveParameters[id_.index].key, kDriveParameters[id_.index].unit, v};
+    return {kDriveParameters[id_.index].key, kDriveParameters[id_.index].unit, v, ci95};
   const EffectEntry& entry = *loop.model.effects[static_cast<std::size_t>(id_.effect)].entry;
   const EffectParameterSpec& spec = entry.parameters[static_cast<std::size_t>(id_.index)];
-  return {std::string(entry.name) + "." + spec.key, spec.unit, v};
+  return {std::string(entry.name) + "." + spec.key, spec.unit, v, ci95};
 }
 
-std::vector<LoopPlace> places_of(const Loop& loop, const LoopFitOptions& options) {
+std::vector<LoopPlace> places_of(const Loop& loop, const DriveController& declared,
+                                 const LoopFitOptions& options) {
   std::vector<LoopPlace> places;
   for (int i = 0; i < kDriveParameterCount; ++i)
     if (has_parameter(loop.model.structure, i)) add_place(loop, reference::drive_number(i), places);
   for (std::size_t e = 0; e < loop.model.effects.size(); ++e)
     for (std::size_t i = 0; i < loop.model.effects[e].entry->parameters.size(); ++i)
       add_place(loop, {static_cast<int>(e), static_cast<int>(i)}, places);
-  const DriveController& c = loop.controller;
-  const auto add = [&](double DriveController::*member, const char* key, const char* unit, double high) {
-    places.emplace_back(member, key, unit, kLeastOf * high, high);
-  };
-  if (options.gain_is_sought && c.kind == ControllerKind::kPosition && c.gain > 0.0)
-    add(&DriveController::gain, "controller.position.gain", "unit of u/rad", kMostTimes * c.gain);
-  if (options.goal_delay_is_sought && c.goal_delay > 0.0) places.emplace_back(1e-4, 0.5);
-  if (options.delay_is_sought && c.delay > 0.0)
-    add(&DriveController::delay, "controller.position.delay", "s", 0.3);
-  if (c.saturation < kInfinity && options.saturation_is_sought)
-    add(&DriveController::saturation, "controller.position.saturation", "unit of u",
-        kMostTimes * c.saturation);
-  if (c.falls_at < kInfinity && options.fall_is_sought)
-    add(&DriveController::falls_at, "controller.position.falls_at", "rad", 100.0);
-  if (!std::isnan(c.off_damping) && options.off_damping_is_sought)
-    add(&DriveController::off_damping, "controller.off_damping", "N m s/rad", kMostTimes);
+  for (const LawNumber* number : kLaw) {
+    const bool asked =
+        (number == &kGain && options.gain_is_sought && loop.controller.kind == ControllerKind::kPosition) ||
+        (number == &kDelay && options.delay_is_sought);
+    if (number->is_in(loop.controller) && (asked || !number->is_in(declared))) places.emplace_back(*number);
+  }
   return places;
 }
 
-std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTrace> recordings,
-                                       const LoopFitOptions& options) {
-  std::vector<LoopAddition> additions;
-  const double output = largest_output(loop, recordings), error = largest_error(recordings);
-  const double torque = usual_torque(loop, recordings);
+namespace {
+
+LoopAddition of_law(const std::vector<const LawNumber*>& numbers, std::vector<double> starts,
+                    std::function<void(Loop&, double)> put) {
+  LoopAddition a{std::move(starts), std::move(put), {}};
+  for (const LawNumber* n : numbers)
+    a.parts.push_back({n->key, [n](Loop& l) { l.controller.*n->member = n->absent; }, true,
+                       n == &kDelay || n == &kGoalDelay || n == &kGoalFilter});
+  return a;
+}
+
+LoopAddition of_law(const LawNumber& number, std::vector<double> starts) {
+  return of_law({&number}, std::move(starts),
+                [&number](Loop& l, double start) { l.controller.*number.member = start; });
+}
+
+void erase(Loop& loop, const char* effect) {
+  std::erase_if(loop.model.effects, [&](const ModelEffect& e) { return e.entry == find_effect(effect); });
+}
+
+LoopAddition of_drive(const char* effect, std::vector<double> starts,
+                      std::function<void(Loop&, double)> put) {
+  return {std::move(starts), std::move(put), {{effect, [effect](Loop& l) { erase(l, effect); }}}};
+}
+
+/// Of the law that the loop's firmware has none of yet.
+void add_laws(const Loop& loop, std::span<const MotorTrace> recordings,
+              std::vector<LoopAddition>& additions) {
+  std::vector<double> errors = errors_of(recordings);
+  const double error = *std::ranges::max_element(errors), usual = median(std::move(errors));
+  const double output = largest_output(loop, recordings) / largest_supply(recordings);
+  const double speed = usual_top_speed(recordings), dt = recordings.front().dt;
   const double damping = loop.model.parameters[place::kMotorDamping].value;
-  const double dt = recordings.front().dt;
-  if (options.off_damping_is_sought && is_ever_off(recordings))
-    additions.push_back({"controller.off_damping",
-                         {0.02 * damping, 0.3 * damping},
-                         [](Loop& l, double start) { l.controller.off_damping = start; }});
-  if (options.saturation_is_sought)
-    additions.push_back(
-        {"controller.position.saturation",
-         {0.3 * output / largest_supply(recordings), 0.7 * output / largest_supply(recordings)},
-         [](Loop& l, double start) { l.controller.saturation = start; },
-         true});
-  if (options.goal_delay_is_sought && !(loop.controller.goal_delay > 0.0))
-    additions.push_back({"controller.goal_delay_s",
-                         {0.5 * dt, 3.0 * dt},
-                         [](Loop& l, double start) { l.controller.goal_delay = start; },
-                         true});
-  if (options.delay_is_sought && !(loop.controller.delay > 0.0))
-    additions.push_back({"controller.position.delay",
-                         {0.3 * dt, 2.0 * dt},
-                         [](Loop& l, double start) { l.controller.delay = start; },
-                         true});
+  const auto lacks = [&](const LawNumber& n) { return !n.is_in(loop.controller); };
+  if (lacks(kOffDamping) && is_ever_off(recordings)) {
+    additions.push_back(of_law(kOffDamping, {0.02 * damping, 0.3 * damping}));
+    additions.back().parts.front().of_law = false;
+  }
+  if (lacks(kSaturation)) additions.push_back(of_law(kSaturation, {0.3 * output, 0.7 * output}));
+  if (lacks(kGoalDelay)) additions.push_back(of_law(kGoalDelay, {0.5 * dt, 3.0 * dt}));
+  if (lacks(kDelay)) additions.push_back(of_law(kDelay, {0.3 * dt, 2.0 * dt}));
+  if (lacks(kGoalFilter)) additions.push_back(of_law(kGoalFilter, {2.0 * dt, 8.0 * dt}));
+  const std::vector<double> speeds = {0.7 * speed, 0.9 * speed, 1.1 * speed};
+  if (speed > 0.0 && lacks(kProfileSpeed)) additions.push_back(of_law(kProfileSpeed, speeds));
+  if (speed > 0.0 && lacks(kProfileAcceleration))
+    additions.push_back(of_law(kProfileAcceleration, {speed / kRise, 3.0 * speed / kRise}));
+  if (speed > 0.0 && lacks(kProfileSpeed) && lacks(kProfileAcceleration))
+    additions.push_back(of_law({&kProfileSpeed, &kProfileAcceleration}, speeds, [](Loop& l, double start) {
+      l.controller.profile_speed = start, l.controller.profile_acceleration = start / kRise;
+    }));
+  // What it does to errors of the usual size stays, at first.
+  const auto falling = [&](std::vector<const LawNumber*> numbers, std::vector<double> starts,
+                           const std::function<void(DriveController&, double)>& change) {
+    additions.push_back(of_law(numbers, std::move(starts), [=](Loop& l, double start) {
+      const double before = share_left(l.controller, usual);
+      change(l.controller, start);
+      more_torque(before / share_left(l.controller, usual), l);
+    }));
+  };
+  const std::vector<double> ends = {0.1 * error, 0.3 * error, error};
+  if (lacks(kFallsAt)) falling({&kFallsAt}, ends, [](DriveController& c, double at) { c.falls_at = at; });
+  if (lacks(kFallsAt) && lacks(kFallsSharpness))
+    falling({&kFallsAt, &kFallsSharpness}, ends,
+            [](DriveController& c, double at) { c.falls_at = at, c.falls_sharpness = 1.0; });
+  if (!lacks(kFallsAt) && lacks(kFallsSharpness))
+    falling({&kFallsSharpness}, {1.0, 4.0}, [](DriveController& c, double n) { c.falls_sharpness = n; });
+}
+
+/// Of the drive.
+void add_effects(const Loop& loop, std::span<const MotorTrace> recordings,
+                 std::vector<LoopAddition>& additions) {
+  const double torque = usual_torque(loop, recordings);
   if (!has(loop.model, "motor_coulomb_friction") && !has(loop.model, "stribeck_friction") &&
       !has(loop.model, "load_dependent_friction"))
-    additions.push_back({"motor_coulomb_friction",
-                         {0.2 * kFirstShare * torque, kFirstShare * torque},
-                         [](Loop& l, double start) {
-                           l.model.effects.push_back(
-                               effect_with("motor_coulomb_friction", {ParameterSetting::sought(start)}));
-                         }});
+    additions.push_back(of_drive("motor_coulomb_friction", {0.2 * kFirstShare * torque, kFirstShare * torque},
+                                 [](Loop& l, double start) {
+                                   l.model.effects.push_back(effect_with("motor_coulomb_friction",
+                                                                         {ParameterSetting::sought(start)}));
+                                 }));
   if (!has(loop.model, "load_dependent_friction"))
-    additions.push_back({"load_dependent_friction", {0.1, 0.3}, [](Loop& l, double start) {
-                           l.model.effects.push_back(
-                               effect_with("load_dependent_friction",
-                                           {ParameterSetting::known(0.0), ParameterSetting::sought(start)}));
-                         }});
-  if (options.fall_is_sought)
-    additions.push_back({"controller.position.falls_at",
-                         {0.1 * error, 0.3 * error, error},
-                         [usual = usual_error(recordings)](Loop& l, double start) {
-                           l.controller.falls_at = start;
-                           more_torque(std::hypot(1.0, usual / start), l);
-                         },
-                         true});
-  if (!has(loop.model, "stribeck_friction"))
-    additions.push_back({"stribeck_friction", {0.3}, [](Loop& l, double start) {
-                           double level = 0.0;
-                           std::erase_if(l.model.effects, [&](const ModelEffect& e) {
-                             const bool simpler = e.entry == find_effect("motor_coulomb_friction");
-                             if (simpler) level += e.parameters[0].value;
-                             return simpler;
-                           });
-                           if (!(level > 0.0)) return;
-                           l.model.effects.push_back(
-                               effect_with("stribeck_friction",
-                                           {ParameterSetting::sought(level), ParameterSetting::sought(start),
+    additions.push_back(of_drive("load_dependent_friction", {0.1, 0.3}, [](Loop& l, double start) {
+      l.model.effects.push_back(effect_with("load_dependent_friction",
+                                            {ParameterSetting::known(0.0), ParameterSetting::sought(start)}));
+    }));
+  if (!has(loop.model, "stribeck_friction")) {
+    additions.push_back(of_drive("stribeck_friction", {0.3}, [](Loop& l, double start) {
+      const double level = level_of(l, "motor_coulomb_friction");
+      if (!(level > 0.0)) return;
+      erase(l, "motor_coulomb_friction");
+      l.model.effects.push_back(
+          effect_with("stribeck_friction", {ParameterSetting::sought(level), ParameterSetting::sought(start),
                                             ParameterSetting::sought(0.2), ParameterSetting::known(1.0)}));
-                         }});
+    }));
+    additions.back().parts.front().take_out = [](Loop& l) {
+      const double level = level_of(l, "stribeck_friction");
+      erase(l, "stribeck_friction");
+      l.model.effects.push_back(effect_with("motor_coulomb_friction", {ParameterSetting::sought(level)}));
+    };
+  }
   const bool loads = std::any_of(recordings.begin(), recordings.end(),
                                  [](const MotorTrace& t) { return !t.load.is_none(); });
-  if (loads && has(loop.model, "load_unbalance"))
-    additions.push_back(
-        {"load_unbalance", {0.1}, [](Loop& l, double start) {
-           const auto first =
-               std::find_if(l.model.effects.begin(), l.model.effects.end(),
-                            [](const ModelEffect& e) { return e.entry == find_effect("load_unbalance"); });
-           const auto at = [&](std::size_t i) { return ParameterSetting::known(first->parameters[i].value); };
-           const ModelEffect arm =
-               effect_with("load_unbalance",
-                           {ParameterSetting::sought(start * first->parameters[0].value), at(1), at(2)});
-           l.model.effects.push_back(arm);
-         }});
+  if (loads && has(loop.model, "load_unbalance")) {
+    additions.push_back(of_drive("load_unbalance", {0.1}, [](Loop& l, double start) {
+      const auto first =
+          std::find_if(l.model.effects.begin(), l.model.effects.end(),
+                       [](const ModelEffect& e) { return e.entry == find_effect("load_unbalance"); });
+      const auto at = [&](std::size_t i) { return ParameterSetting::known(first->parameters[i].value); };
+      l.model.effects.push_back(effect_with(
+          "load_unbalance", {ParameterSetting::sought(start * first->parameters[0].value), at(1), at(2)}));
+    }));
+    additions.back().parts.front().take_out =
+        [](Loop& l) {  // the second one: the first hangs there as declared
+          const auto last =
+              std::find_if(l.model.effects.rbegin(), l.model.effects.rend(),
+                           [](const ModelEffect& e) { return e.entry == find_effect("load_unbalance"); });
+          l.model.effects.erase(std::next(last).base());
+        };
+  }
+}
+
+/// Torque with which what hangs on the drive is held at x1 [N m].
+double weight_at(const ReferenceModel& model, const MotorTrace& trace, double x1) {
+  double torque = 0.0, more = trace.load.gravity;
+  for (const ModelEffect& e : model.effects)
+    if (e.entry == find_effect("load_unbalance")) {
+      torque += (e.parameters[0].value + more) * std::sin(e.parameters[2].value * x1 + e.parameters[1].value);
+      more = 0.0;
+    }
+  return torque;
+}
+
+}  // namespace
+
+std::optional<Loop> held_at_rest(const Loop& loop, std::span<const MotorTrace> recordings) {
+  std::vector<double> constants;  // of which a goal that is not taken up yet spoils some
+  for (const MotorTrace& t : recordings) {
+    const std::vector<double> u = commanded_input(loop.controller, t);
+    const auto rows = static_cast<std::size_t>(std::ceil(kRise / t.dt));
+    for (std::size_t i = rows; i < t.size(); ++i) {
+      const bool rests = std::abs(t.x1[i] - t.x1[i - rows]) <= t.quantum;
+      if (rests && u[i] != 0.0) constants.push_back(weight_at(loop.model, t, t.x1[i]) / u[i]);
+    }
+  }
+  Loop held = loop;
+  ParameterSetting &constant = held.model.parameters[place::kTorqueConstant],
+                   &damping = held.model.parameters[place::kMotorDamping],
+                   &inertia = held.model.parameters[place::kMotorInertia];
+  const double speed = usual_top_speed(recordings);
+  if (!constant.estimate || !(speed > 0.0)) return {};
+  constant.value = median(std::move(constants));
+  if (!(constant.value > 0.0)) return {};
+  if (damping.estimate)
+    damping.value = kMostDamped * constant.value * largest_output(loop, recordings) / speed;
+  if (inertia.estimate && inertia.low > 0.0) inertia.value = kInertia * inertia.low;
+  return held;
+}
+
+std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTrace> recordings) {
+  std::vector<LoopAddition> additions;
+  add_laws(loop, recordings, additions);
+  add_effects(loop, recordings, additions);
   return additions;
 }
 

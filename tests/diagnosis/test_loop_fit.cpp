@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "gapscope/diagnosis/loop_fit.h"
@@ -73,6 +74,7 @@ TEST(LoopFit, FindsWhatTheFirmwareDoesAndHoldsForAnotherMass) {
   EXPECT_NEAR(found->controller.falls_at, 0.4, 0.1);
   EXPECT_NEAR(found->controller.goal_delay, 0.03, 0.011);
   EXPECT_NEAR(found->model.parameters[place::kTorqueConstant].value, 0.4, 0.06);
+  for (const LoopNumber& n : found->numbers) EXPECT_LE(n.ci95.low, n.value) << n.key;
 
   Recording heavier = log_of(other, 0.5);
   heavier.load = {(other - own) * kArm * kArm, (other - own) * kGravity * kArm};
@@ -80,6 +82,39 @@ TEST(LoopFit, FindsWhatTheFirmwareDoesAndHoldsForAnotherMass) {
   EXPECT_TRUE(run.closed);
   EXPECT_LT(run.mae, 5e-3);
   EXPECT_GT(run.fit, 97.0);
+}
+
+/// Steps of a goal that the firmware follows slowly: they look like inertia, friction and delay.
+Recording steps_of(double mass, double gain_times) {
+  DriveController law;
+  law.gain = 8.0 * gain_times, law.rate = 1000.0;
+  law.profile_speed = 3.0, law.profile_acceleration = 30.0;
+  std::vector<double> goal;
+  const double places[] = {0.0, 1.1, -0.6, 0.4, 1.3, -1.0};
+  for (int i = 0; i < 600; ++i) goal.push_back(places[i / 100]);
+  SimulationOptions options;
+  options.rate = 100.0;
+  Recording r = simulate_under_controller(servo(mass), law, goal, options);
+  r.file = std::to_string(gain_times), r.quantum = 1.5e-3;
+  auto rows = std::make_shared<CommandRows>(*r.command);
+  rows->gain_times = gain_times, r.command = rows;
+  return r;
+}
+
+TEST(LoopFit, TellsAProfileOfTheGoalFromADrive) {
+  const std::vector<Recording> logs = {steps_of(0.5, 1.0), steps_of(0.5, 3.0)};
+  std::vector<MotorTrace> traces;
+  for (const Recording& r : logs) traces.push_back(r.motor_trace());
+  DriveController declared;
+  declared.gain = 8.0;
+  LoopFitOptions options;
+  options.rate_is_sought = true;
+  const auto found = fit_in_loop(traces, servo_model(0.5), declared, options);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->controller.profile_speed, 3.0, 0.03);
+  EXPECT_NEAR(found->controller.profile_acceleration, 30.0, 1.0);
+  EXPECT_NEAR(found->model.parameters[place::kMotorInertia].value, 0.025, 0.0025);
+  EXPECT_NEAR(found->model.parameters[place::kTorqueConstant].value, 0.4, 0.02);
 }
 
 /// 0.535 and 1.168 kg on one servo: fitted on the first, the other mass is a question of the model alone. The
