@@ -109,10 +109,12 @@ std::string loop_fit_text(const DiagnosisResult& r) {
   std::string text = fmt::format(
       "\n## Fitted in the loop\n\nfitted.yaml has the numbers with which the whole loop follows the "
       "recordings best, goal in, position out: {} off in the mean over what was fitted, {} before.{}\n\n| "
-      "number | value |\n|---|---|\n",
+      "number | value | 95 % interval |\n|---|---|---|\n",
       quantity(fit.mae_after, unit), quantity(fit.mae_before, unit),
       fit.added.empty() ? "" : fmt::format(" It asked for {}.", fmt::join(fit.added, ", ")));
-  for (const LoopNumber& n : fit.numbers) text += fmt::format("| {} | {:.4g} {} |\n", n.key, n.value, n.unit);
+  for (const LoopNumber& n : fit.numbers)
+    text += fmt::format("| {} | {:.4g} {} | {:.4g} to {:.4g} |\n", n.key, n.value, n.unit, n.ci95.low,
+                        n.ci95.high);
   return text + loop_runs_table("held out", r.diagnosis.held_out_runs, unit) +
          loop_runs_table("fitted", fit.fitted_runs, unit);
 }

@@ -168,6 +168,7 @@ void fields(Archive& archive, LoopNumber& n) {
   archive("parameter", n.key);
   archive("unit", n.unit);
   archive("value", n.value);
+  archive("ci95", n.ci95);
 }
 
 template <class Archive>
