@@ -213,6 +213,25 @@ Told unknown(const CardFacts& f) {
   return told;
 }
 
+/// The law of the firmware beyond what was declared of it, where the loop as a whole shows it.
+Told firmware(const Diagnosis& d) {
+  if (!leads_in_loop(d)) return {};
+  static const std::pair<const char*, const char*> told_as[] = {
+      {"controller.profile.speed", "firmware.speed"},
+      {"controller.profile.acceleration", "firmware.acceleration"},
+      {"controller.goal_filter_s", "firmware.filter"},
+      {"controller.goal_delay_s", "firmware.goal_late"},
+      {"controller.position.delay", "firmware.late"},
+      {"controller.position.saturation", "firmware.ends"},
+      {"controller.position.falls_at", "firmware.falls"}};
+  Told told;
+  for (const auto& [key, code] : told_as)
+    for (const LoopNumber& n : d.loop->numbers)
+      if (n.key == key && contains(d.loop->added, n.key))
+        told.push_back({code, {number("value", n.value, n.unit, n.ci95)}});
+  return told;
+}
+
 /// Whether the cause, where none is established, is more likely outside of the catalogue; probabilities were
 /// learned where the candidates' own refits decide, above the encoder's floor.
 bool is_likely_outside(const Diagnosis& d) {
@@ -239,7 +258,7 @@ Told cause_of(const CardFacts& f) {
       told.push_back({"cause.outside", {per_cent("p", 100.0 * d.outside_probability)}});
     if (ended_early(d)) told.push_back({"cause.exhausted"});
   }
-  for (Statement& s : simulator_of(f)) told.push_back(std::move(s));
+  for (const Told& more : {firmware(d), simulator_of(f)}) told.insert(told.end(), more.begin(), more.end());
   return told;
 }
 

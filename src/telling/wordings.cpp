@@ -172,6 +172,13 @@ constexpr Wording kWordings[] = {
     {"where.pattern", "The missing {torque} {where}."},
     {"where.short", "The held-out motion covers {turns} turns, less than one period."},
     // Its cause.
+    {"firmware.speed", "The firmware moves to its goal at no more than {value}."},
+    {"firmware.acceleration", "The firmware accelerates towards its goal by no more than {value}."},
+    {"firmware.filter", "The firmware smooths its goal with a time constant of {value}."},
+    {"firmware.goal_late", "The goal takes effect {value} late."},
+    {"firmware.late", "The controller's output acts {value} late."},
+    {"firmware.ends", "The controller's output is limited to {value}."},
+    {"firmware.falls", "The controller's gain falls where the error exceeds {value}."},
     {"cause.none", "Nothing is missing that this recording could show."},
     {"cause.numbers",
      "No effect is missing that this recording could show; some numbers of the configuration were off, and "
