@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "blind/score.h"
 #include "config/blind_config.h"

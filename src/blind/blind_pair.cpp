@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cmath>
 
 #include "base/random.h"
 #include "engine_plant/mujoco_plant.h"

@@ -1,7 +1,5 @@
 #include "blind/drawn_law.h"
 
-#include <cmath>
-
 #include "base/require.h"
 #include "gapscope/plant/effect.h"
 

@@ -13,7 +13,6 @@
 #include "base/interrupt.h"
 #include "base/process_lock.h"
 #include "base/require.h"
-#include "base/text.h"
 #include "campaign/sqlite.h"
 #include "campaign/store_header.h"
 #include "gapscope/base/errors.h"

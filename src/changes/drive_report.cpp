@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "changes/loops.h"
-#include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
 #include "results/diagnosis_result.h"
 #include "results/file_list.h"

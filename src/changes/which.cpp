@@ -1,12 +1,9 @@
 #include "changes/which.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
-#include "base/normal.h"
-#include "changes/chance.h"
 #include "changes/judge.h"
 #include "changes/two_groups.h"
 #include "gapscope/plant/effect.h"

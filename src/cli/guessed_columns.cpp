@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
-
 #include "base/shown.h"
 #include "base/text.h"
 #include "cli/commands.h"

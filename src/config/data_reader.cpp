@@ -11,7 +11,6 @@
 #include "config/field_reader.h"
 #include "config/file_facts.h"
 #include "config/units_reader.h"
-#include "gapscope/base/errors.h"
 #include "recording/column_name.h"
 
 namespace gapscope {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "config/parameter_setting.h"
 #include "gapscope/base/errors.h"
 
 namespace gapscope {

@@ -1,7 +1,5 @@
 #include "config/mjcf_gravity.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>

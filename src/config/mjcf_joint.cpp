@@ -9,7 +9,6 @@
 #include "config/mjcf_gravity.h"
 #include "config/mjcf_mass.h"
 #include "config/mjcf_turn.h"
-#include "gapscope/base/errors.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/require.h"
 #include "config/model_reader.h"
-#include "gapscope/base/errors.h"
 
 namespace gapscope {
 namespace internal::config {

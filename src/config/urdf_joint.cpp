@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "config/joint_reader.h"
-#include "gapscope/base/errors.h"
 
 namespace gapscope::internal::config {
 namespace {

@@ -8,7 +8,6 @@
 #include "diagnosis/law_fit.h"
 #include "diagnosis/motion.h"
 #include "diagnosis/place.h"
-#include "diagnosis/step.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "base/normal.h"
 #include "diagnosis/last_resort.h"

@@ -1,7 +1,5 @@
 #include "gapscope/diagnosis/next_experiment.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

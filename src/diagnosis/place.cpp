@@ -1,7 +1,6 @@
 #include "diagnosis/place.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnosis/numbers.h"
 #include "gapscope/base/statistics.h"

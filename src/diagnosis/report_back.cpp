@@ -1,8 +1,5 @@
 #include "diagnosis/report_back.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>

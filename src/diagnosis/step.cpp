@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
-#include "base/require.h"
 #include "diagnosis/counted.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/ranking.h"

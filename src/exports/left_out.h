@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "exports/carried.h"
 
 namespace gapscope::internal::exports {

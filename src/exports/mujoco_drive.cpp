@@ -1,7 +1,6 @@
 #include "exports/mujoco_drive.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "exports/stiff_contact.h"
 

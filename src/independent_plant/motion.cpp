@@ -1,7 +1,5 @@
 #include "independent_plant/motion.h"
 
-#include <cmath>
-
 namespace gapscope::independent_plant {
 namespace {
 

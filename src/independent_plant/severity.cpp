@@ -1,7 +1,6 @@
 #include "independent_plant/severity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/require.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "gapscope/base/statistics.h"
 

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "inspection/rules.h"
-#include "recording/resample.h"
 #include "signals/encoder.h"
 #include "signals/fresh_rows.h"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/shown.h"
-#include "gapscope/base/errors.h"
 #include "gapscope/base/statistics.h"
 #include "recording/recorded_rows.h"
 

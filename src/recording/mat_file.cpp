@@ -1,7 +1,6 @@
 #include "recording/mat_file.h"
 
 #include <array>
-#include <fstream>
 
 #include "gapscope/base/errors.h"
 #include "recording/recorded_rows.h"

@@ -1,7 +1,5 @@
 #include "recording/table_form.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <iterator>

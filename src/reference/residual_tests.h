@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "reference/fit_problem.h"
 
 namespace gapscope::internal::reference {

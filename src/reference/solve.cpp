@@ -2,7 +2,6 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "base/interrupt.h"
 #include "reference/ceres_terms.h"

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "report/markdown.h"
 #include "report/wording.h"
-#include "results/drive_card.h"
 
 namespace gapscope::internal::report {
 namespace {

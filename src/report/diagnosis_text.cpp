@@ -14,7 +14,6 @@
 #include "report/diagnosis_words.h"
 #include "report/error_budget.h"
 #include "report/last_resort.h"
-#include "report/markdown.h"
 #include "report/refitted_table.h"
 #include "report/simulator.h"
 #include "report/wording.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "report/figures.h"
-#include "report/signals.h"
 #include "report/true_passages.h"
 #include "report/wording.h"
 

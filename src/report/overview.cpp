@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "base/parallel.h"
-#include "base/text.h"
 #include "report/figures.h"
 #include "report/rich_text.h"
 #include "report/wording.h"

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <ostream>
-#include <stdexcept>
 
 #include "base/parallel.h"
 #include "gapscope/base/whole_file.h"

@@ -8,7 +8,6 @@
 
 #include "base/decimals.h"
 #include "base/text.h"
-#include "report/markdown.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {

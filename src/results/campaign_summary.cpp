@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "gapscope/base/errors.h"
 #include "results/json_archive.h"
 #include "results/json_schema.h"
 

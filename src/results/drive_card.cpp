@@ -1,6 +1,5 @@
 #include "results/drive_card.h"
 
-#include <cmath>
 #include <filesystem>
 #include <optional>
 

@@ -7,9 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "base/input_file.h"
 #include "base/shown.h"

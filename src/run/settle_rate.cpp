@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "run/fitted_command.h"
 
 namespace gapscope::internal::run {

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstddef>
-#include <initializer_list>
 
 #include "base/interrupt.h"
 #include "gapscope/base/errors.h"
