@@ -37,9 +37,7 @@ Tile tile_of(const ConfusionCell& c, int x, int y) {
 }
 
 FigureData confusion(const BlindScore& s) {
-  FigureData figure;
-  figure.file = "confusion.png";
-  figure.title = "What was answered to what: cases with at most one effect";
+  FigureData figure{"confusion.png", "What was answered to what: cases with at most one effect"};
   figure.width = 3200.0;
   std::vector<std::string> answers;
   std::vector<std::string> truths;
@@ -81,13 +79,12 @@ FigureData confusion(const BlindScore& s) {
 }
 
 Panel reliability_panel(const BlindCalibration& c) {
-  Panel p;
-  p.title = "How often a probability comes true";
-  p.x = {"probability given to the first step's group", "%", kPercent, {}, {}, {}};
-  p.y = {"truth is in the group", "%", kPercent, {}, {}, {}};
-  p.height = 700.0;
+  Panel p{"How often a probability comes true",
+          {"probability given to the first step's group", "%", kPercent},
+          {"truth is in the group", "%", kPercent},
+          700.0};
   Series ideal{"as it should be", guide_style(), {0.0, 100.0}, {0.0, 100.0}};
-  Series seen{"seen, with 95 % limits", reference_style(), {}, {}};
+  Series seen{"seen, with 95 % limits", reference_style()};
   seen.marker = Marker::kDisc;
   for (const ReliabilityBin& b : c.bins) {
     if (b.cases == 0) continue;
@@ -101,13 +98,12 @@ Panel reliability_panel(const BlindCalibration& c) {
 }
 
 Panel abstention_panel(const BlindScore& s) {
-  Panel p;
-  p.title = "What a least probability keeps";
-  p.x = {"least probability that is believed", "%", kPercent, {}, {}, {}};
-  p.y = {"share", "%", kPercent, {}, {}, {}};
-  p.height = 700.0;
-  Series kept{"decisions kept", reference_style(), {}, {}},
-      right{"of these, truth is in the group", model_free_style(), {}, {}};
+  Panel p{"What a least probability keeps",
+          {"least probability that is believed", "%", kPercent},
+          {"share", "%", kPercent},
+          700.0};
+  Series kept{"decisions kept", reference_style()},
+      right{"of these, truth is in the group", model_free_style()};
   kept.marker = Marker::kCircle, right.marker = Marker::kDisc;
   for (const AbstentionPoint& a : s.abstention) {
     if (a.answered == 0) continue;
@@ -122,10 +118,8 @@ Panel abstention_panel(const BlindScore& s) {
 FigureData calibration(const BlindScore& s) {
   const BlindCalibration& c = s.calibration;
   if (c.judged_on == 0)
-    return missing_figure("calibration.png", "Probabilities", "no case of the report part has candidates.");
-  FigureData figure;
-  figure.file = "calibration.png";
-  figure.title = "Probabilities of the first step";
+    return missing_figure({"calibration.png", "Probabilities"}, "no case of the report part has candidates.");
+  FigureData figure{"calibration.png", "Probabilities of the first step"};
   figure.width = 2400.0;
   figure.columns = 2;
   figure.panels = {reliability_panel(c), abstention_panel(s)};
@@ -141,7 +135,7 @@ FigureData calibration(const BlindScore& s) {
 
 Series shares(const std::vector<BlindSlice>& slices, const char* label, const LineStyle& style, Marker marker,
               int BlindSlice::*count, double aside) {
-  Series series{label, style, {}, {}};
+  Series series{label, style};
   series.joined = false;
   series.marker = marker;
   for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -160,13 +154,11 @@ FigureData slice_figure(const BlindScore& s, const std::string& by, const std::s
   std::copy_if(s.slices.begin(), s.slices.end(), std::back_inserter(slices),
                [&](const BlindSlice& x) { return x.by == by; });
   if (slices.empty())
-    return missing_figure("by_" + by + ".png", title, "no case has one effect of the catalogue.");
-  FigureData figure;
-  figure.file = "by_" + by + ".png";
-  figure.title = title;
+    return missing_figure({"by_" + by + ".png", title}, "no case has one effect of the catalogue.");
+  FigureData figure{"by_" + by + ".png", title};
   figure.width = 2000.0;
   Panel p;
-  p.x = {"share of the cases with more than 2 floors of mismatch", "%", kPercent, {}, {}, {}};
+  p.x = {"share of the cases with more than 2 floors of mismatch", "%", kPercent};
   for (const BlindSlice& slice : slices) {
     p.y.categories.push_back(literal(readable(slice.name)));
     p.y.remarks.push_back(fmt::format("{}/{}", slice.seen, slice.cases));

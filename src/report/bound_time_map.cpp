@@ -80,12 +80,8 @@ Panel map_panel(const ReportView& view, const BoundMap& map) {
 }
 
 Panel displacement_panel(const ReportView& view, const BoundMap& map) {
-  Panel panel;
-  panel.title = "Motor displacement";
-  panel.x = view.time_axis(time_range(map));
-  panel.y = {"$x_1$", view.length_unit, {}, {}, {}, {}};
-  panel.height = 260.0;
-  panel.x_labels = false;
+  Panel panel{
+      "Motor displacement", view.time_axis(time_range(map)), {"$x_1$", view.length_unit}, 260.0, false};
   panel.series.push_back(view.over_time("", measured_style(), view.recording->position(), panel.x.range));
   return panel;
 }
@@ -96,7 +92,7 @@ Panel scale_panel() {
   for (double d = 0.0; d < kTopDecade - 0.5 * kStep; d += kStep)
     panel.tiles.push_back({{d, d + kStep}, {0.0, 1.0}, shade(d + 0.5 * kStep), "", kInk});
   panel.title = "Scale";
-  panel.x = {"|$e_x$| / chatter floor", "", {0.0, kTopDecade}, {}, {}, {}};
+  panel.x = {"|$e_x$| / chatter floor", "", {0.0, kTopDecade}};
   for (const double level : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0})
     panel.x.places.push_back({std::log10(level), fmt::format("{:g}", level)});
   panel.y.range = {0.0, 1.0};
@@ -154,15 +150,10 @@ std::string reading(const ReportView& view, const BoundMap& map) {
 }  // namespace
 
 FigureData bound_time_map(const ReportView& view) {
-  FigureData figure;
-  figure.file = "bound_time_map.png";
-  figure.title = "What each bound shows";
+  FigureData figure{"bound_time_map.png", "What each bound shows"};
   if (!view.recording || !view.run.model_free || !view.run.model_free->map ||
-      view.run.model_free->map->file != view.recording->file || view.run.model_free->map->columns() == 0) {
-    figure.missing = "no bank of bounds was run over this recording";
-    figure.expected = false;
-    return figure;
-  }
+      view.run.model_free->map->file != view.recording->file || view.run.model_free->map->columns() == 0)
+    return missing_figure(figure, "no bank of bounds was run over this recording", false);
   const BoundMap& map = *view.run.model_free->map;
   figure.panels = {displacement_panel(view, map), map_panel(view, map), scale_panel()};
   mark_events(view, map, figure.panels[0], true);

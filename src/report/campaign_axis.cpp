@@ -35,7 +35,7 @@ std::string letter(std::size_t i) { return std::string(1, static_cast<char>('A' 
 
 Axis campaign_axis(const SummaryAxis& axis, const Interval& room) {
   const auto last = static_cast<double>(axis.bins.size()) - 1.0;
-  Axis a{literal(axis.name), "", {-room.low, last + room.high}, {}, {}, {}};
+  Axis a{literal(axis.name), "", {-room.low, last + room.high}};
   const bool lettered = has_long_labels(axis);
   const std::string unit = lettered ? "" : shared_unit(axis);
   if (!unit.empty()) a.name += " (" + literal(unit) + ")";

@@ -19,7 +19,7 @@ Axis decades(const std::string& name, const std::string& unit, const std::vector
   Interval range{kNaN, least_high};
   for (const double v : values)
     if (std::isfinite(v)) range = {std::fmin(range.low, std::floor(v)), std::fmax(range.high, std::ceil(v))};
-  Axis axis{name, unit, {range.low - 0.2, range.high + 0.2}, {}, {}, {}};
+  Axis axis{name, unit, {range.low - 0.2, range.high + 0.2}};
   for (double decade = range.low; decade <= range.high; ++decade)
     axis.places.push_back({decade, fmt::format("{:g}", std::pow(10.0, decade))});
   return axis;
@@ -79,7 +79,7 @@ Panel share_over(const CampaignSummary& s, const std::string& name, const std::s
         mark_of(estimators[i], x[i], 100.0 * e.within_5 / e.runs, {100.0 * limits.low, 100.0 * limits.high}));
   }
   p.x = decades(name, unit, x, kNaN);
-  p.y = {"share of the runs", "%", {-4.0, 104.0}, {}, {}, {}};
+  p.y = {"share of the runs", "%", {-4.0, 104.0}};
   p.height = 420.0;
   return p;
 }
@@ -87,9 +87,7 @@ Panel share_over(const CampaignSummary& s, const std::string& name, const std::s
 }  // namespace
 
 FigureData campaign_cost(const CampaignSummary& s) {
-  FigureData figure;
-  figure.file = "cost.png";
-  figure.title = literal(s.name) + ": what it costs";
+  FigureData figure{"cost.png", literal(s.name) + ": what it costs"};
   Cost passes;
   bool judged = false;
   for (const CampaignEstimator& e : estimators_of(s)) {
@@ -97,8 +95,7 @@ FigureData campaign_cost(const CampaignSummary& s) {
     judged = judged || score.judged > 0;
     passes.push_back(score.passes);
   }
-  if (!judged)
-    return missing_figure(figure.file, figure.title, "no run has a true gap and an estimate of it");
+  if (!judged) return missing_figure(figure, "no run has a true gap and an estimate of it");
   figure.width = 3200.0;
   figure.columns = 2;
   figure.lines = {

@@ -33,12 +33,7 @@ std::vector<Series> series_of(const CampaignSummary& s, const SummaryTable& tabl
 }
 
 Panel panel(const std::string& title, const SummaryAxis& axis, const std::string& y_name) {
-  Panel p;
-  p.title = title;
-  p.x = campaign_axis(axis, {0.4, 0.4});
-  p.y = {y_name, "%", {}, {}, {}, {}};
-  p.height = 420.0;
-  return p;
+  return {title, campaign_axis(axis, {0.4, 0.4}), {y_name, "%"}, 420.0};
 }
 
 double log_percent(double error) { return error > 0.0 ? std::log10(100.0 * error) : kNaN; }
@@ -154,9 +149,8 @@ std::string course(const CampaignSummary& s, const SummaryTable& table, const Ca
 
 FigureData campaign_line(const CampaignSummary& s, const SummaryTable& table) {
   const SummaryAxis& axis = s.axes[table.a];
-  FigureData figure;
-  figure.file = fmt::format("along_{}.png", table.a + 1);
-  figure.title = literal(s.name) + ": along the " + literal(axis.name);
+  FigureData figure{fmt::format("along_{}.png", table.a + 1),
+                    literal(s.name) + ": along the " + literal(axis.name)};
   figure.width = 3200.0;
   figure.columns = 2;
   if (const std::string key = campaign_key(axis); !key.empty()) figure.lines = {key};

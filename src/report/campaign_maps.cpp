@@ -61,12 +61,8 @@ Tile tile_at(int a, int b, const Shown& shown) {
 }
 
 Panel empty_map(const CampaignSummary& s, const SummaryTable& table, const std::string& title) {
-  Panel p;
-  p.title = title;
-  p.x = campaign_axis(s.axes[table.a], {0.5, 0.5});
-  p.y = campaign_axis(s.axes[table.b], {0.5, 0.5});
-  p.height = std::max(260.0, 100.0 * static_cast<double>(s.axes[table.b].bins.size()));
-  return p;
+  return {title, campaign_axis(s.axes[table.a], {0.5, 0.5}), campaign_axis(s.axes[table.b], {0.5, 0.5}),
+          std::max(260.0, 100.0 * static_cast<double>(s.axes[table.b].bins.size()))};
 }
 
 /// A map of each estimator, where any of them has a number.

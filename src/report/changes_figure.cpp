@@ -60,10 +60,8 @@ std::string without_a_gap(const DriveChanges& all, const std::vector<std::string
 }
 
 Panel plays_over_reports(const DriveChanges& all, const std::vector<std::string>& names) {
-  Panel panel;
-  panel.title = "Estimates with 95 % intervals" + without_a_gap(all, names);
-  panel.x = {
-      "report, in the order given", "", {0.5, static_cast<double>(all.reports.size()) + 0.5}, {}, {}, {}};
+  Panel panel{"Estimates with 95 % intervals" + without_a_gap(all, names),
+              {"report, in the order given", "", {0.5, static_cast<double>(all.reports.size()) + 0.5}}};
   for (const std::string& name : names)
     panel.x.places.push_back({static_cast<double>(panel.x.places.size() + 1), literal(name)});
   panel.y.unit = all.coordinates.position_unit();
@@ -124,12 +122,10 @@ void add_loops(const DriveChanges& all, const std::vector<std::string>& names, F
 }  // namespace
 
 FigureData gap_over_recordings(const DriveChanges& all) {
-  FigureData figure;
-  figure.file = "gap_over_recordings.png";
-  figure.title = "The gap over the recordings";
+  FigureData figure{"gap_over_recordings.png", "The gap over the recordings"};
   const std::vector<std::string> names = short_names(all.reports);
   Panel plays = plays_over_reports(all, names);
-  if (plays.series.empty()) return missing_figure(figure.file, figure.title, "no report gives a gap");
+  if (plays.series.empty()) return missing_figure(figure, "no report gives a gap");
   figure.panels.push_back(std::move(plays));
   add_loops(all, names, figure);
   figure.reading = changes_headline(all) + ".";

@@ -99,18 +99,13 @@ Interval decades(const DiagnosisResult& r, const std::vector<const DetectableEff
 }  // namespace
 
 FigureData diagnosis_detectable(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_detectable.png";
-  figure.title = "Smallest amounts that would have been named";
+  FigureData figure{"diagnosis_detectable.png", "Smallest amounts that would have been named"};
   const std::vector<const DetectableEffect*> effects = drawn(r);
-  if (effects.empty()) {
-    figure = missing_figure(figure.file, figure.title, "nobody asked for it, or no amount could be found");
-    figure.expected = false;
-    return figure;
-  }
+  if (effects.empty())
+    return missing_figure(figure, "nobody asked for it, or no amount could be found", false);
   const std::string torque = r.coordinates.torque_word();
   Panel panel;
-  panel.x = {"rms " + torque + " of that amount, share of the input's", "%", decades(r, effects), {}, {}};
+  panel.x = {"rms " + torque + " of that amount, share of the input's", "%", decades(r, effects)};
   panel.x.places = log_places(panel.x.range, {1.0});
   if (!torque_note(r.input).empty())
     panel.title = "Amounts in " + r.coordinates.shown_unit("N m") + ": " + torque_note(r.input);

@@ -30,7 +30,7 @@ LineStyle after_style() { return {kBlue, 4.0, {16, 9}}; }
 
 Series over_time(const std::string& label, const LineStyle& style, const MismatchTrace& t,
                  const std::vector<double>& values) {
-  Series s{label, style, {}, {}};
+  Series s{label, style};
   for (std::size_t i = t.scored_from; i < values.size(); ++i) {
     s.x.push_back(t.time(i));
     s.y.push_back(values[i]);
@@ -39,12 +39,10 @@ Series over_time(const std::string& label, const LineStyle& style, const Mismatc
 }
 
 Panel time_panel(const std::string& title, const Axis& y, const MismatchTrace& t) {
-  Panel panel;
-  panel.title = title;
-  panel.x = {
-      "time $t$", "s", {t.time(std::min(t.scored_from, t.x1.size() - 1)), t.time(t.x1.size() - 1)}, {}, {}};
-  panel.y = y;
-  panel.height = 460.0;  // a correcting torque in mN·m is named in one line
+  Panel panel{title,
+              {"time $t$", "s", {t.time(std::min(t.scored_from, t.x1.size() - 1)), t.time(t.x1.size() - 1)}},
+              y,
+              460.0};  // a correcting torque in mN·m is named in one line
   return panel;
 }
 
@@ -92,8 +90,7 @@ Series simulated_line(const std::string& name, const LineStyle& style, const Mis
 /// recording.
 Panel recorded_over_simulated(const DiagnosisResult& r, const MismatchTrace& t) {
   const bool simulated = t.simulated_before.size() == t.x1.size() || t.simulated_after.size() == t.x1.size();
-  Panel panel =
-      time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r), {}, {}, {}}, t);
+  Panel panel = time_panel("Held-out recording", {"displacement " + position_name(r), length_unit(r)}, t);
   panel.series.push_back(over_time(simulated ? "recorded" : "", measured_style(), t, t.x1));
   if (!simulated) return panel;
   panel.title = r.diagnosis.closed_loop ? "Recorded, and simulated under the drive's controller"
@@ -110,11 +107,8 @@ Panel recorded_over_simulated(const DiagnosisResult& r, const MismatchTrace& t) 
 
 /// Bars as a band from zero to the share, and the expected share as a mark.
 Panel map_panel(const DiagnosisResult& r, const std::string& title, const std::vector<MapShare>& map) {
-  Panel panel;
-  panel.title = title;
-  panel.x = {"share of the squared correcting " + torque_word(r), "", {0.0, 1.0}, {}, {}};
-  Series share{"share", {kVermillion, 4.0, {}}, {}, {}},
-      expected{"if spread evenly", {kGrey, 4.0, {}}, {}, {}};
+  Panel panel{title, {"share of the squared correcting " + torque_word(r), "", {0.0, 1.0}}};
+  Series share{"share", {kVermillion, 4.0, {}}}, expected{"if spread evenly", {kGrey, 4.0, {}}};
   share.joined = expected.joined = false;
   share.stems = true;
   share.marker = Marker::kDisc, expected.marker = Marker::kCircle;
@@ -168,14 +162,12 @@ double ranked_reach(const std::vector<RankedEffect>& ranking, std::size_t shown)
 }  // namespace
 
 FigureData diagnosis_traces(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_traces.png";
-  figure.title = "Recording, model and errors on held-out data";
+  FigureData figure{"diagnosis_traces.png", "Recording, model and errors on held-out data"};
   const MismatchTrace* t = shown_trace(r);
-  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  if (t == nullptr) return missing_figure(figure, "the fitted motion diverges");
   figure.panels.push_back(pair_panel(r, *t, error_title(r.diagnosis.measures),
-                                     {position_name(r) + " − free run", length_unit(r), {}, {}, {}},
-                                     t->error_before, t->error_after));
+                                     {position_name(r) + " − free run", length_unit(r)}, t->error_before,
+                                     t->error_after));
   figure.panels.push_back(correcting_panel(r, *t));
   figure.panels.insert(figure.panels.begin(), recorded_over_simulated(r, *t));
   const MismatchSize& g = r.diagnosis.mismatch;
@@ -187,20 +179,17 @@ FigureData diagnosis_traces(const DiagnosisResult& r) {
 }
 
 FigureData diagnosis_ranking(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_ranking.png";
-  figure.title = "Candidates, each refitted alone, by the motion";
+  FigureData figure{"diagnosis_ranking.png", "Candidates, each refitted alone, by the motion"};
   const auto& ranking = r.diagnosis.ranking;
-  if (ranking.empty())
-    return missing_figure(figure.file, figure.title, "the model is at the floor, nothing was looked for");
+  if (ranking.empty()) return missing_figure(figure, "the model is at the floor, nothing was looked for");
   Panel panel;
   const std::size_t shown = std::min(kShownCandidates, ranking.size());
   panel.title = "Each alone, free run, first step";
   if (shown < ranking.size()) panel.title += fmt::format(": {} of {}", shown, ranking.size());
   const double reach = ranked_reach(ranking, shown);
   const char* const floor = ranked_by(r.diagnosis.mismatch);
-  panel.x = {"share of the way to the " + std::string(floor), "", {-0.25 * reach, 1.3 * reach}, {}, {}};
-  Series s{"", {kBlue, 4.0, {}}, {}, {}};
+  panel.x = {"share of the way to the " + std::string(floor), "", {-0.25 * reach, 1.3 * reach}};
+  Series s{"", {kBlue, 4.0, {}}};
   s.joined = false, s.marker = Marker::kDisc, s.stems = true;
   for (std::size_t i = 0; i < shown; ++i) {
     panel.y.categories.push_back(readable(ranking[i].effect));
@@ -225,11 +214,9 @@ FigureData diagnosis_ranking(const DiagnosisResult& r) {
 }
 
 FigureData diagnosis_where(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_where.png";
-  figure.title = "Where the nominal model errs";
+  FigureData figure{"diagnosis_where.png", "Where the nominal model errs"};
   const MismatchPlace& w = r.diagnosis.where;
-  if (w.mode.empty()) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  if (w.mode.empty()) return missing_figure(figure, "the fitted motion diverges");
   figure.width = 3200.0;
   figure.columns = 2;
   const std::pair<const char*, const std::vector<MapShare>&> maps[] = {
@@ -242,8 +229,7 @@ FigureData diagnosis_where(const DiagnosisResult& r) {
       {"Time", w.time}};
   for (const auto& [title, map] : maps)
     if (!says_nothing(map)) figure.panels.push_back(map_panel(r, title, map));
-  if (figure.panels.empty())
-    return missing_figure(figure.file, figure.title, "the error is alike everywhere");
+  if (figure.panels.empty()) return missing_figure(figure, "the error is alike everywhere");
   figure.reading = "The correcting " + torque_word(r) + " " + w.headline + ".";
   return figure;
 }
@@ -260,9 +246,7 @@ void borrow(FigureData& sheet, const std::vector<FigureData>& figures, const std
 }
 
 FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figures) {
-  FigureData sheet;
-  sheet.file = "diagnosis.png";
-  sheet.title = literal(r.name) + ": what the simulation lacks";
+  FigureData sheet{"diagnosis.png", literal(r.name) + ": what the simulation lacks"};
   sheet.lines.push_back(literal(r.diagnosis.sentence));
   if (const auto& traces = r.diagnosis.traces; traces.size() > 1)
     sheet.lines.push_back(fmt::format("Drawn over time: {}, the first of {} held-out recordings.",
@@ -282,7 +266,7 @@ FigureData sheet(const DiagnosisResult& r, const std::vector<FigureData>& figure
         std::max(sheet.panels[i].height, sheet.panels[i + 1].height);
   sheet.reading = r.diagnosis.sentence;
   if (sheet.lines.size() > 1) sheet.reading += " " + plain_text(sheet.lines.back());
-  if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
+  if (sheet.panels.empty()) return missing_figure(sheet, "there is nothing to draw");
   return sheet;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "base/decimals.h"
@@ -14,12 +15,34 @@
 #include "report/diagnosis_words.h"
 #include "report/error_budget.h"
 #include "report/last_resort.h"
-#include "report/refitted_table.h"
 #include "report/simulator.h"
 #include "report/wording.h"
+#include "results/diagnosis_result.h"
 
 namespace gapscope::internal::report {
 namespace {
+
+std::string refitted_row(const RefittedNumber& n, Coordinates coordinates) {
+  const Coordinates own = n.key.ends_with("phase_rad") ? Coordinates() : coordinates;  // along a slide, too
+  const std::string unit = own.shown_unit(n.unit);
+  return fmt::format("| `{}` | {} | {} | {} |\n", n.key, quantity_beside(n.configured, n.fitted, unit),
+                     beside_interval(n.fitted, n.ci95, unit), interval_text(n.ci95, unit));
+}
+
+/// The section of report.md on the numbers that the configuration gives and the recordings contradict, with
+/// those that were fitted; empty where there are none.
+std::string refitted_table(const DiagnosisResult& r) {
+  std::string rows;
+  for (const RefittedNumber& n : r.diagnosis.refitted)
+    if (rounded(n.configured) != rounded(n.fitted)) rows += refitted_row(n, r.coordinates);
+  if (rows.empty()) return "";
+  return fmt::format(
+      "\n## Numbers of your model\n\nEstimated numbers whose interval leaves out what the configuration "
+      "starts at, where three digits show that: a number that the recordings contradict, or no more than a "
+      "first guess. The intervals hold for the model {}; `fitted.yaml` has the fitted ones.\n\n"
+      "| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n{}",
+      added(r) ? with_added(r) : std::string("as it is"), rows);
+}
 
 /// The stored name of a measure in words.
 std::string measure_name(const std::string& stored) {

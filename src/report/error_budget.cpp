@@ -83,14 +83,8 @@ double longest_bar(const ErrorBudget& b) {
 
 FigureData diagnosis_budget(const DiagnosisResult& r) {
   const ErrorBudget& b = r.diagnosis.budget;
-  FigureData figure;
-  figure.file = "diagnosis_budget.png";
-  figure.title = "Error budget: missing " + torque_of(r) + " on held-out data";
-  if (!b.exists()) {
-    figure = missing_figure(figure.file, figure.title, "the drive has a contact that opens and closes");
-    figure.expected = false;
-    return figure;
-  }
+  FigureData figure{"diagnosis_budget.png", "Error budget: missing " + torque_of(r) + " on held-out data"};
+  if (!b.exists()) return missing_figure(figure, "the drive has a contact that opens and closes", false);
   Panel panel;
   panel.title = fmt::format("Rms below {} Hz (% of the input's)", rounded(b.band_hz, 2));
   const std::vector<Floor> floors = floors_of(b);
@@ -140,11 +134,9 @@ FigureData diagnosis_budget(const DiagnosisResult& r) {
 }
 
 Panel budget_shares(const DiagnosisResult& r) {
-  Panel panel;
-  panel.title = "Shares of the error budget";
-  panel.x = {"share of the mean square", "", {0.0, 1.0}, {}, {}};
-  Series alone{"alone, of what the nominal model leaves", {kBlue, 4.0, {}}, {}, {}},
-      last{"last, of what all the others leave", {kInk, 4.0, {}}, {}, {}};
+  Panel panel{"Shares of the error budget", {"share of the mean square", "", {0.0, 1.0}}};
+  Series alone{"alone, of what the nominal model leaves", {kBlue, 4.0, {}}},
+      last{"last, of what all the others leave", {kInk, 4.0, {}}};
   alone.joined = last.joined = false, alone.stems = true;
   alone.marker = Marker::kDisc, last.marker = Marker::kCircle;
   double row = 0.0;

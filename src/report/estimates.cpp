@@ -92,9 +92,8 @@ void add_truth(const ReportView& view, Panel& panel) {
 }
 
 Panel side_by_side(const ReportView& view) {
-  Panel panel;
-  panel.title = "Estimates with 95 % intervals";
-  panel.x = {is_play(view) ? "play at zero torque, gap" : "backlash gap $2β$", view.length_unit, {}, {}, {}};
+  Panel panel{"Estimates with 95 % intervals",
+              {is_play(view) ? "play at zero torque, gap" : "backlash gap $2β$", view.length_unit}};
   add_model_free(view, panel);
   add_literal(view, panel);
   add_reference(view, panel);
@@ -146,15 +145,14 @@ Series passages(const ReportView& view, const std::string& label, int direction,
 }
 
 Panel over_time(const ReportView& view) {
-  Panel panel;
-  panel.title = is_play(view) ? "Loop by loop" : "Passage by passage";
-  panel.x = view.time_axis({view.time.front(), view.time.back()});
-  panel.y = {is_play(view) ? "play at zero torque" : "estimate of $2β$",
-             view.length_unit,
-             event_range(view),
-             {},
-             {}};
-  panel.height = 520.0;
+  Panel panel{is_play(view) ? "Loop by loop" : "Passage by passage",
+              view.time_axis({view.time.front(), view.time.back()}),
+              {is_play(view) ? "play at zero torque" : "estimate of $2β$",
+               view.length_unit,
+               event_range(view),
+               {},
+               {}},
+              520.0};
   for (const Series& s :
        {passages(view, "$x_1$ rising", 1, true, Marker::kTriangleUp),
         passages(view, "$x_1$ falling", -1, true, Marker::kTriangleDown),
@@ -196,14 +194,11 @@ std::string passages_reading(const ReportView& view) {
 }  // namespace
 
 FigureData estimates(const ReportView& view) {
-  FigureData figure;
-  figure.file = "estimates.png";
-  figure.title = "Estimates of the gap";
+  FigureData figure{"estimates.png", "Estimates of the gap"};
   Panel panel = side_by_side(view);
   if (!panel.series.empty()) figure.panels.push_back(panel);
   if (has_passages(view)) figure.panels.push_back(over_time(view));
-  if (figure.panels.empty())
-    return missing_figure(figure.file, figure.title, "there is no estimate of a gap");
+  if (figure.panels.empty()) return missing_figure(figure, "there is no estimate of a gap");
   figure.reading = accuracy(view.run);
   if (figure.reading.empty()) figure.reading = without_estimate(view.run);
   if (has_passages(view)) figure.reading += passages_reading(view);

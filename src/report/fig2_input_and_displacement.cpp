@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "report/error_scale.h"
 #include "report/figures.h"
 #include "report/signals.h"
+#include "report/view_signals.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -10,12 +10,7 @@ namespace {
 
 Panel over_time(const ReportView& view, const std::string& title, const Axis& y, const LineStyle& style,
                 const std::vector<double>& values) {
-  Panel panel;
-  panel.title = title;
-  panel.x = view.time_axis(view.window);
-  panel.y = y;
-  panel.height = 330.0;
-  panel.x_labels = false;
+  Panel panel{title, view.time_axis(view.window), y, 330.0, false};
   panel.series.push_back(view.over_time("", style, values, view.window));
   return panel;
 }
@@ -23,7 +18,7 @@ Panel over_time(const ReportView& view, const std::string& title, const Axis& y,
 Panel state_and_error(const ReportView& view) {
   Panel panel;
   panel.x = view.time_axis(view.window);
-  panel.y = {"displacement", view.length_unit, {}, {}, {}};
+  panel.y = {"displacement", view.length_unit};
   panel.height = 480.0;
   panel.title = view.state.empty() ? view.error_title() : view.state_title();
   double target = kNaN;
@@ -65,15 +60,14 @@ std::string reading(const ReportView& view) {
 }  // namespace
 
 FigureData fig2_input_and_displacement(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fig2_input_and_displacement.png";
-  figure.title = view.state.empty() ? "Input, displacement and estimation error"
-                                    : "Input, displacement and backlash state";
-  if (!view.recording) return missing_figure(figure.file, figure.title, "no recording is stored");
-  figure.panels.push_back(over_time(view, "Input", {"input $u$", input_unit(view.run), {}, {}, {}},
-                                    input_style(), view.recording->u));
+  FigureData figure{"fig2_input_and_displacement.png", view.state.empty()
+                                                           ? "Input, displacement and estimation error"
+                                                           : "Input, displacement and backlash state"};
+  if (!view.recording) return missing_figure(figure, "no recording is stored");
+  figure.panels.push_back(
+      over_time(view, "Input", {"input $u$", input_unit(view.run)}, input_style(), view.recording->u));
   figure.panels.push_back(over_time(view, view.reads_load() ? "Load displacement" : "Motor displacement",
-                                    {view.position_name(), view.length_unit, {}, {}, {}}, measured_style(),
+                                    {view.position_name(), view.length_unit}, measured_style(),
                                     view.recording->position()));
   if (!view.state.empty() || view.error) figure.panels.push_back(state_and_error(view));
   figure.panels.back().x_labels = true;

@@ -8,11 +8,7 @@ namespace gapscope::internal::report {
 namespace {
 
 Panel map(const ReportView& view, const std::string& title, const std::vector<double>& y, const Axis& axis) {
-  Panel panel;
-  panel.title = title;
-  panel.x = {"motor $x_1$", view.length_unit, {}, {}, {}};
-  panel.y = axis;
-  panel.height = 470.0;
+  Panel panel{title, {"motor $x_1$", view.length_unit}, axis, 470.0};
   Series s;
   s.style = measured_style();
   s.style.width = 3.0;
@@ -52,17 +48,12 @@ std::string width_of_map(const ReportView& view) {
 }  // namespace
 
 FigureData fig3_backlash_map(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fig3_backlash_map.png";
-  figure.title = "Backlash map of both encoders";
+  FigureData figure{"fig3_backlash_map.png", "Backlash map of both encoders"};
   if (view.source != StateSource::kRecorded)
-    return missing_figure(figure.file, figure.title,
-                          view.reads_load() ? "the recording has no motor position x1"
-                                            : "the recording has no load position x2");
-  figure.panels.push_back(
-      map(view, "Load over motor", view.recording->x2, {"load $x_2$", view.length_unit, {}, {}, {}}));
-  figure.panels.push_back(
-      map(view, "Backlash state", view.state, {"$x_1 − x_2$", view.length_unit, {}, {}, {}}));
+    return missing_figure(figure, view.reads_load() ? "the recording has no motor position x1"
+                                                    : "the recording has no load position x2");
+  figure.panels.push_back(map(view, "Load over motor", view.recording->x2, {"load $x_2$", view.length_unit}));
+  figure.panels.push_back(map(view, "Backlash state", view.state, {"$x_1 − x_2$", view.length_unit}));
   figure.panels.front().x_labels = false;
   mark_gap(view, figure.panels.back());
   figure.reading = width_of_map(view);

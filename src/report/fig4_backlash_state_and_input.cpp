@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/drive_signal.h"
 #include "report/figures.h"
 #include "report/signals.h"
+#include "report/view_signals.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -36,11 +36,7 @@ Turns turns_of(const ReportView& view, const std::vector<double>& drive) {
 
 Panel over_time(const ReportView& view, const std::string& title, const Series& series, const Axis& axis,
                 const std::vector<double>& zeros) {
-  Panel panel;
-  panel.title = title;
-  panel.x = view.time_axis(view.window);
-  panel.y = axis;
-  panel.height = 400.0;
+  Panel panel{title, view.time_axis(view.window), axis, 400.0};
   panel.series = {series};
   for (const double t : zeros)
     if (t > view.window.low && t < view.window.high) panel.x_marks.push_back({t, guide_style(), ""});
@@ -48,11 +44,7 @@ Panel over_time(const ReportView& view, const std::string& title, const Series& 
 }
 
 Panel loop(const ReportView& view, const DriveSignal& drive, const LineStyle& style) {
-  Panel panel;
-  panel.title = view.state_title() + " over input";
-  panel.x = drive.axis;
-  panel.y = {view.state_name(), view.length_unit, {}, {}, {}};
-  panel.height = 470.0;
+  Panel panel{view.state_title() + " over input", drive.axis, {view.state_name(), view.length_unit}, 470.0};
   Series s;
   s.style = style;
   s.style.dashes.clear();  // a loop run through many times fills its dashes
@@ -87,16 +79,14 @@ std::string reading(const ReportView& view, const DriveSignal& drive, const Turn
 }  // namespace
 
 FigureData fig4_backlash_state_and_input(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fig4_backlash_state_and_input.png";
-  figure.title = "Backlash state and input";
+  FigureData figure{"fig4_backlash_state_and_input.png", "Backlash state and input"};
   if (view.state.empty())
-    return missing_figure(figure.file, figure.title,
+    return missing_figure(figure,
                           "x2 was not recorded, and there is no fitted model with a load in its place");
   const DriveSignal drive = drive_signal(view);
   const Turns turns = turns_of(view, drive.values);
   const LineStyle style = view.source == StateSource::kFitted ? reference_style() : measured_style();
-  const Axis state_axis{view.state_name(), view.length_unit, {}, {}, {}};
+  const Axis state_axis{view.state_name(), view.length_unit};
   figure.panels.push_back(over_time(
       view, "Input", view.over_time("", input_style(), drive.values, view.window), drive.axis, turns.times));
   figure.panels.push_back(over_time(

@@ -73,18 +73,14 @@ std::string error_reading(const ReportView& view) {
 }  // namespace
 
 FigureData fig5_displacement_and_error(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fig5_displacement_and_error.png";
-  figure.title = "Displacement and estimation error";
+  FigureData figure{"fig5_displacement_and_error.png", "Displacement and estimation error"};
   if (!view.recording || !view.error)
-    return missing_figure(figure.file, figure.title,
-                          view.run.model_free ? "the detector left no error trace of the recording"
-                                              : "the model-free detector was not asked for");
-  Panel displacement;
-  displacement.title = "Displacement";
-  displacement.x = view.time_axis(view.window);
-  displacement.y = {"displacement " + view.position_name(), view.length_unit, {}, {}, {}};
-  displacement.height = 420.0;
+    return missing_figure(figure, view.run.model_free ? "the detector left no error trace of the recording"
+                                                      : "the model-free detector was not asked for");
+  Panel displacement{"Displacement",
+                     view.time_axis(view.window),
+                     {"displacement " + view.position_name(), view.length_unit},
+                     420.0};
   displacement.series.push_back(
       view.over_time("", measured_style(), view.recording->position(), view.window));
   const bool by_one_bound = view.run.model_free && view.run.model_free->by_one_bound();
@@ -93,11 +89,7 @@ FigureData fig5_displacement_and_error(const ReportView& view) {
         at_events(view, "regained, $t_2$", Marker::kDisc, false),
         by_one_bound ? at_lone_impacts(view) : Series{}, true_ones(view, true), true_ones(view, false)})
     if (!s.x.empty()) displacement.series.push_back(s);
-  Panel error;
-  error.title = view.error_title();
-  error.x = displacement.x;
-  error.y = {"error $e_x$", view.length_unit, {}, {}, {}};
-  error.height = 360.0;
+  Panel error{view.error_title(), displacement.x, {"error $e_x$", view.length_unit}, 360.0};
   LineStyle thin = model_free_style();
   thin.width = 3.5;  // it may chatter
   error.series.push_back(view.over_time("", thin, view.error->error, view.window));

@@ -38,7 +38,7 @@ bool uncorrected(const GapEvent& e) {
 Panel displacement_panel(const ReportView& view, const OnePassage& p) {
   Panel panel;
   panel.x = view.time_axis(p.window);
-  panel.y = {"$x_1$", view.length_unit, {}, {}, {}};
+  panel.y = {"$x_1$", view.length_unit};
   panel.height = 520.0;
   panel.title = "Motor displacement";
   panel.x_labels = false;
@@ -55,7 +55,7 @@ Panel displacement_panel(const ReportView& view, const OnePassage& p) {
 Panel error_panel(const ReportView& view, const OnePassage& p) {
   Panel panel;
   panel.x = view.time_axis(p.window);
-  panel.y = {"$e_x$", view.length_unit, {}, {}, {}};
+  panel.y = {"$e_x$", view.length_unit};
   panel.height = 400.0;
   panel.title = view.error_title();
   if (view.error) panel.series.push_back(view.over_time("", model_free_style(), view.error->error, p.window));
@@ -115,19 +115,14 @@ std::optional<OnePassage> typical_passage(const ReportView& view) {
 }
 
 FigureData fig6_one_period(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fig6_one_period.png";
-  figure.title = "One passage of the gap";
-  if (view.run.model_free && view.run.model_free->method == GapMethod::kLostMotion) {
-    figure.missing = "the lost-motion loop has no instants at which contact is lost or regained";
-    figure.expected = false;
-    return figure;
-  }
+  FigureData figure{"fig6_one_period.png", "One passage of the gap"};
+  if (view.run.model_free && view.run.model_free->method == GapMethod::kLostMotion)
+    return missing_figure(figure, "the lost-motion loop has no instants at which contact is lost or regained",
+                          false);
   const std::optional<OnePassage> passage = typical_passage(view);
   if (!passage)
-    return missing_figure(figure.file, figure.title,
-                          view.run.model_free ? "no passage of the gap was accepted"
-                                              : "the model-free detector was not asked for");
+    return missing_figure(figure, view.run.model_free ? "no passage of the gap was accepted"
+                                                      : "the model-free detector was not asked for");
   if (!is_told(view)) figure.title = "What looks like a passage of the gap";
   figure.panels = {displacement_panel(view, *passage), error_panel(view, *passage)};
   if (!view.error) {

@@ -104,11 +104,10 @@ struct FigureData {
 };
 
 /// A figure that this result cannot have.
-inline FigureData missing_figure(std::string file, std::string title, std::string why) {
-  FigureData figure;
-  figure.file = std::move(file);
-  figure.title = std::move(title);
+/// @param expected  false: nobody would look for it here
+inline FigureData missing_figure(FigureData figure, std::string why, bool expected = true) {
   figure.missing = std::move(why);
+  figure.expected = expected;
   return figure;
 }
 

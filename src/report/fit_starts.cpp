@@ -10,22 +10,16 @@
 namespace gapscope::internal::report {
 
 FigureData fit_starts(const ReportView& view) {
-  FigureData figure;
-  figure.file = "fit_starts.png";
-  figure.title = "Where the searches of the fit ended";
+  FigureData figure{"fit_starts.png", "Where the searches of the fit ended"};
   const auto& reference = view.run.reference;
-  if (!reference || reference->start_costs.size() < 2) {
-    figure.missing = reference ? "the first start settled the fit" : "no model was fitted";
-    figure.expected = false;
-    return figure;
-  }
+  if (!reference || reference->start_costs.size() < 2)
+    return missing_figure(figure, reference ? "the first start settled the fit" : "no model was fitted",
+                          false);
   const double best = std::sqrt(reference->start_costs.front());
   const auto as_good = [&](double cost) { return std::sqrt(cost) < 1.005 * best; };
-  if (std::all_of(reference->start_costs.begin(), reference->start_costs.end(), as_good)) {
-    figure.missing = fmt::format("all {} searches ended in one minimum", reference->start_costs.size());
-    figure.expected = false;
-    return figure;
-  }
+  if (std::all_of(reference->start_costs.begin(), reference->start_costs.end(), as_good))
+    return missing_figure(
+        figure, fmt::format("all {} searches ended in one minimum", reference->start_costs.size()), false);
   Series s;
   s.style = reference_style();
   s.marker = Marker::kDisc;
@@ -42,7 +36,7 @@ FigureData fit_starts(const ReportView& view) {
   }
   const double lowest = std::min(0.0, s.x.front()), highest = std::max(0.0, s.x.back());
   const double margin = 0.1 * (highest - lowest) + 0.05;
-  panel.x = {"prediction error / encoder floor", "", {lowest - margin, highest + margin}, {}, {}};
+  panel.x = {"prediction error / encoder floor", "", {lowest - margin, highest + margin}};
   panel.x.places =
       highest - lowest > 2.0 ? log_places(panel.x.range, {1.0}) : log_places(panel.x.range, {1.0, 2.0, 5.0});
   panel.height = 120.0 + 50.0 * static_cast<double>(s.x.size());

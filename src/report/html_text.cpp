@@ -6,7 +6,7 @@
 #include <cctype>
 #include <sstream>
 
-#include "report/markup_text.h"
+#include "report/rich_text.h"
 
 namespace gapscope::internal::report {
 namespace {

@@ -30,7 +30,7 @@ std::vector<std::string> implanted_effects(const BlindScore& s) {
 Series cases_where(const BlindScore& s, const std::vector<std::string>& rows, const char* label,
                    const LineStyle& style, Marker marker,
                    const std::function<bool(const ScoredCase&)>& holds) {
-  Series series{label, style, {}, {}};
+  Series series{label, style};
   series.joined = false, series.marker = marker;
   std::vector<int> seen(rows.size(), 0);
   for (const ScoredCase& c : s.cases) {
@@ -75,13 +75,11 @@ std::string case_table(const BlindScore& s) {
 
 FigureData implant_figure(const BlindScore& s) {
   const std::vector<std::string> rows = implanted_effects(s);
-  FigureData figure;
-  figure.file = "implants.png";
-  figure.title = "Implants: what was foretold to show, and what was named";
+  FigureData figure{"implants.png", "Implants: what was foretold to show, and what was named"};
   const bool any = std::any_of(s.cases.begin(), s.cases.end(), [](const ScoredCase& c) {
     return c.implant && std::isfinite(c.implant->foretold_share);
   });
-  if (!any) return missing_figure(figure.file, figure.title, "no share of the held-out error is foretold.");
+  if (!any) return missing_figure(figure, "no share of the held-out error is foretold.");
   figure.width = 2200.0;
   Panel p;
   p.x = {"share of the held-out residual torque that is foretold to go to the implant",

@@ -13,8 +13,8 @@ namespace gapscope::internal::report {
 namespace {
 
 Axis variable_axis(const DiagnosisResult& r, const LastResortLaw& law) {
-  if (law.variable == "speed") return {"speed $w_1$", r.coordinates.shown_unit("rad/s"), {}, {}, {}};
-  if (law.variable == "input") return {"input $u$", input_unit(r), {}, {}, {}};
+  if (law.variable == "speed") return {"speed $w_1$", r.coordinates.shown_unit("rad/s")};
+  if (law.variable == "input") return {"input $u$", input_unit(r)};
   return {std::string(r.coordinates.rotational() ? "motor angle" : "displacement") + " $x_1$",
           r.coordinates.position_unit(),
           {},
@@ -36,7 +36,7 @@ double law_at(const LastResortLaw& law, double at, int direction) {
 
 /// Means over bins, of each direction. With the law: what it leaves, on top of itself.
 void add_bins(const LastResortLaw& law, bool with, Panel& panel) {
-  Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}};
+  Series plus{"forward", {kVermillion, 2.0, {}}}, minus{"backward", {kBlue, 2.0, {}}};
   plus.joined = minus.joined = false;
   plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown;
   for (const ResidualBin& b : law.residual) {
@@ -51,7 +51,7 @@ void add_bins(const LastResortLaw& law, bool with, Panel& panel) {
 
 /// A friction jumps at standstill: the line is interrupted where the direction changes.
 Series drawn_curve(const LastResortLaw& law) {
-  Series curve{readable(law.law), {kInk, 4.0, {}}, {}, {}};
+  Series curve{readable(law.law), {kInk, 4.0, {}}};
   for (std::size_t i = 0; i < law.curve.size(); ++i) {
     const CurvePoint& p = law.curve[i];
     if (i > 0 && p.direction != law.curve[i - 1].direction) {
@@ -65,11 +65,7 @@ Series drawn_curve(const LastResortLaw& law) {
 }
 
 Panel panel_of(const DiagnosisResult& r, const LastResortLaw& law, const std::string& title, bool with) {
-  Panel panel;
-  panel.title = title;
-  panel.x = variable_axis(r, law);
-  panel.y = correction_axis(r);
-  panel.height = 520.0;
+  Panel panel{title, variable_axis(r, law), correction_axis(r), 520.0};
   add_bins(law, with, panel);
   return panel;
 }
@@ -77,13 +73,9 @@ Panel panel_of(const DiagnosisResult& r, const LastResortLaw& law, const std::st
 }  // namespace
 
 FigureData diagnosis_law(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_law.png";
-  if (r.diagnosis.laws.empty()) {
-    figure = missing_figure(figure.file, "A law of what remains", "no free-form law explains what remains");
-    figure.expected = false;
-    return figure;
-  }
+  FigureData figure{"diagnosis_law.png", "A law of what remains"};
+  if (r.diagnosis.laws.empty())
+    return missing_figure(figure, "no free-form law explains what remains", false);
   const LastResortLaw& law = r.diagnosis.laws.front();
   figure.title = "What remains is a function of " + law.variable;
   figure.panels = {panel_of(r, law, "Without the law", false),

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "report/drive_signal.h"
 #include "report/figures.h"
 #include "report/signals.h"
+#include "report/view_signals.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -187,18 +187,13 @@ std::string reading_of(const LoopFigure& f, bool flanks) {
 }  // namespace
 
 FigureData lost_motion_loop(const ReportView& view) {
-  FigureData figure;
-  figure.file = "lost_motion_loop.png";
-  figure.title = "Displacement against input";
-  if (!view.recording || !view.run.model_free || !view.run.model_free->lost_motion.read()) {
-    figure.missing = "there is no quasi-static loop of displacement and input";
-    figure.expected = false;
-    return figure;
-  }
+  FigureData figure{"lost_motion_loop.png", "Displacement against input"};
+  if (!view.recording || !view.run.model_free || !view.run.model_free->lost_motion.read())
+    return missing_figure(figure, "there is no quasi-static loop of displacement and input", false);
   const LoopFigure f(view);
   Panel panel;
   panel.x = f.drive.axis;
-  panel.y = {"motor $x_1$", view.length_unit, {}, {}, {}};
+  panel.y = {"motor $x_1$", view.length_unit};
   panel.height = 760.0;
   panel.x_marks.push_back({0.0, guide_style(), ""});
   for (std::size_t level = f.lost_motion.levels.size(); level-- > 0;)  // the small ones on top

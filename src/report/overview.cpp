@@ -50,9 +50,7 @@ std::string first_line(const RunResult& run) {
 }  // namespace
 
 FigureData overview(const ReportView& view, const std::vector<FigureData>& figures) {
-  FigureData sheet;
-  sheet.file = "overview.png";
-  sheet.title = literal(view.run.name) + ": overview";
+  FigureData sheet{"overview.png", literal(view.run.name) + ": overview"};
   sheet.width = 3200.0, sheet.scale = kSheetScale;
   sheet.columns = 2;
   sheet.lines.push_back(literal(first_line(view.run)));
@@ -71,7 +69,7 @@ FigureData overview(const ReportView& view, const std::vector<FigureData>& figur
     for (const std::size_t i : {0u, 1u}) borrow(sheet, figures, "estimates.png", i, 400.0);
   borrow(sheet, figures, "fig3_backlash_map.png", 1, 420.0, "Backlash map");
   borrow(sheet, figures, "residuals.png", 0, 420.0);
-  if (sheet.panels.empty()) return missing_figure(sheet.file, sheet.title, "there is nothing to draw");
+  if (sheet.panels.empty()) return missing_figure(sheet, "there is nothing to draw");
   sheet.reading = accuracy(view.run) + (accuracy(view.run).empty() ? "" : " ") + fit_quality(view.run);
   if (sheet.reading.empty()) sheet.reading = without_estimate(view.run);
   if (!drawn.empty()) sheet.reading += " " + drawn;

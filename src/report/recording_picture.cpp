@@ -14,11 +14,7 @@ constexpr std::size_t kPictureColumns = 1500;  ///< a sample each of which tells
 
 Panel traced(const std::string& title, const Axis& y, const std::vector<double>& t,
              const std::vector<double>& values, const LineStyle& style) {
-  Panel panel;
-  panel.title = title;
-  panel.x = {"time $t$", "s", {}, {}, {}, {}};
-  panel.y = y;
-  panel.height = 330.0;
+  Panel panel{title, {"time $t$", "s"}, y, 330.0};
   Series line;
   line.style = style;
   for (const std::size_t i : decimate_columns(t, values, kPictureColumns))
@@ -28,11 +24,7 @@ Panel traced(const std::string& title, const Axis& y, const std::vector<double>&
 }
 
 Panel loop_of(const Recording& r, const Axis& input, const Axis& position) {
-  Panel panel;
-  panel.title = "Position over input";
-  panel.x = input;
-  panel.y = position;
-  panel.height = 480.0;
+  Panel panel{"Position over input", input, position, 480.0};
   Series line;
   line.style = measured_style();
   line.style.width = 2.0;
@@ -44,26 +36,21 @@ Panel loop_of(const Recording& r, const Axis& input, const Axis& position) {
 
 FigureData figure_of(const Recording& r, Coordinates coordinates, const InputFacts& facts,
                      const std::vector<std::string>& lines) {
-  const Axis input = {
-      "input $u$", facts.unit.empty() ? "units of $u$" : coordinates.shown_unit(facts.unit), {}, {}, {}, {}};
-  FigureData figure;
-  figure.file = "recording.png";
-  figure.title = literal(r.file);
+  const Axis input = {"input $u$", facts.unit.empty() ? "units of $u$" : coordinates.shown_unit(facts.unit)};
+  FigureData figure{"recording.png", literal(r.file)};
   for (const std::string& line : lines) figure.lines.push_back(literal(line));
   std::vector<double> t(r.size());
   for (std::size_t i = 0; i < t.size(); ++i) t[i] = r.time(i);
   const bool load = r.encoder == EncoderSide::kLoad;
   const std::vector<double>& x = load ? r.x2 : r.x1;
-  const Axis position = {
-      load ? "position $x_2$" : "position $x_1$", coordinates.position_unit(), {}, {}, {}, {}};
+  const Axis position = {load ? "position $x_2$" : "position $x_1$", coordinates.position_unit()};
   figure.panels.push_back(traced("Input", input, t, r.u, input_style()));
   figure.panels.push_back(traced("Position", position, t, x, measured_style()));
   if (!r.even()) {
     std::vector<double> steps(t.size());
     std::adjacent_difference(t.begin(), t.end(), steps.begin());
     steps.front() = steps.size() > 1 ? steps[1] : 0.0;
-    figure.panels.push_back(
-        traced("Time from row to row", {"step", "s", {}, {}, {}, {}}, t, steps, guide_style()));
+    figure.panels.push_back(traced("Time from row to row", {"step", "s"}, t, steps, guide_style()));
   }
   if (!load) figure.panels.push_back(loop_of(r, input, position));
   return figure;

@@ -55,12 +55,11 @@ void add_stretches(const ReportView& view, const std::vector<double>& residual, 
 
 Panel over_time(const ReportView& view, const std::vector<double>& residual, const Interval& interval,
                 bool shaded) {
-  Panel panel;
-  panel.title = view.whole || shaded ? (view.fit->x2.empty() ? "Residual" : "Residual by mode")
-                                     : "Residual of the whole recording";
-  panel.x = view.time_axis(interval);
-  panel.y = {view.position_name() + " − fitted " + view.position_name(), view.length_unit, {}, {}, {}};
-  panel.height = 400.0;
+  Panel panel{view.whole || shaded ? (view.fit->x2.empty() ? "Residual" : "Residual by mode")
+                                   : "Residual of the whole recording",
+              view.time_axis(interval),
+              {view.position_name() + " − fitted " + view.position_name(), view.length_unit},
+              400.0};
   LineStyle style = measured_style();
   style.width = 2.5;
   panel.series.push_back(view.over_time("", style, residual, interval));
@@ -93,7 +92,7 @@ Panel overlay(const ReportView& view, const Interval& interval) {
   if (std::isfinite(percent) && view.run.recordings.size() == 1)
     panel.title += fmt::format(" (fit {} %)", rounded(percent, 4));
   panel.x = view.time_axis(interval);
-  panel.y = {"displacement " + view.position_name(), view.length_unit, {}, {}, {}};
+  panel.y = {"displacement " + view.position_name(), view.length_unit};
   panel.height = 400.0;
   panel.series.push_back(view.over_time("recorded", measured_style(), view.recording->position(), interval));
   panel.series.push_back(
@@ -121,13 +120,13 @@ Panel correlation_panel(const ReportView& view, const std::string& title, const 
   Panel panel;
   panel.title = title;
   const double dt = view.recording->dt * static_cast<double>(step);
-  panel.x = {"lag", "s", {0.0, dt * static_cast<double>(r.size() - 1)}, {}, {}};
+  panel.x = {"lag", "s", {0.0, dt * static_cast<double>(r.size() - 1)}};
   panel.height = 360.0;
   // r_0 is always 1; a scale that holds it would flatten what is left of a nearly white residual.
   const std::size_t first = with_first ? 0 : 1;
   const double largest = largest_magnitude(std::span(r).subspan(first));
   const double limit = std::min(1.05, std::max(3.0 * band, 1.3 * largest));
-  panel.y = {"correlation", "", {-limit, limit}, {}, {}};
+  panel.y = {"correlation", "", {-limit, limit}};
   panel.y_bands.push_back({{-band, band}, kBandShade, band_name});
   Series s;
   s.style = measured_style();
@@ -193,13 +192,10 @@ std::string reading(const ReportView& view, const std::vector<double>& residual,
 }  // namespace
 
 FigureData residuals(const ReportView& view) {
-  FigureData figure;
-  figure.file = "residuals.png";
-  figure.title = "Recorded and simulated displacement";
+  FigureData figure{"residuals.png", "Recorded and simulated displacement"};
   if (!view.recording || !view.fit)
     return missing_figure(
-        figure.file, figure.title,
-        view.run.reference ? "the fit left no free run of the recording" : "no model was fitted");
+        figure, view.run.reference ? "the fit left no free run of the recording" : "no model was fitted");
   const std::vector<double> residual = difference_of(view.recording->position(), view.fit->position());
   const std::vector<double> tested =
       predicts(view) ? difference_of(view.recording->position(), view.fit->predicted) : residual;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/drive_signal.h"
 #include "report/figures.h"
+#include "report/view_signals.h"
 #include "report/wording.h"
 
 namespace gapscope::internal::report {
@@ -34,15 +34,10 @@ void add_reversal(const ReportView& view, const DriveSignal& drive, const GapEve
 }  // namespace
 
 FigureData reversal_shelf(const ReportView& view) {
-  FigureData figure;
-  figure.file = "reversal_shelf.png";
-  figure.title = "Input behind the reversals";
+  FigureData figure{"reversal_shelf.png", "Input behind the reversals"};
   if (!view.recording || !view.run.model_free || view.run.model_free->method != GapMethod::kReversal ||
-      view.run.model_free->verdict != GapVerdict::kBacklash) {
-    figure.missing = "the gap was not read behind slow reversals";
-    figure.expected = false;
-    return figure;
-  }
+      view.run.model_free->verdict != GapVerdict::kBacklash)
+    return missing_figure(figure, "the gap was not read behind slow reversals", false);
   const GapEstimate& g = *view.run.model_free;
   const DriveSignal drive = drive_signal(view);
   Series rising, falling;
@@ -52,7 +47,7 @@ FigureData reversal_shelf(const ReportView& view) {
     if (e.file == view.recording->file)
       add_reversal(view, drive, e, kShownWay * g.gap, e.direction > 0 ? rising : falling);
   Panel panel;
-  panel.x = {"way of $x_1$ since it turned round", view.length_unit, {}, {}, {}};
+  panel.x = {"way of $x_1$ since it turned round", view.length_unit};
   panel.y = drive.axis;
   panel.y.name += ", along the motion";
   panel.height = 760.0;

@@ -27,4 +27,7 @@ std::string literal(const std::string& text);
 /// The text alone, for Markdown and messages: "2β̂ = 18.7 mrad", "x_1".
 std::string plain_text(const std::string& markup);
 
+/// Text as HTML and XML have it; control characters, which XML 1.0 cannot hold, are left out.
+std::string markup_text(const std::string& text);
+
 }  // namespace gapscope::internal::report

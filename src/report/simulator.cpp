@@ -103,7 +103,7 @@ std::string errors_text(const DiagnosisResult& r, const SimulatorComparison& c) 
 
 Series simulator_line(const std::string& label, const LineStyle& style, const SimulatorTrace& t,
                       const std::vector<double>& values) {
-  Series s{label, style, {}, {}};
+  Series s{label, style};
   for (std::size_t i = t.scored_from; i < values.size(); ++i)
     s.x.push_back(t.time(i)), s.y.push_back(values[i]);
   return s;
@@ -117,25 +117,18 @@ std::vector<double> off_by(const std::vector<double>& a, const std::vector<doubl
 
 Panel simulator_panel(const DiagnosisResult& r, const SimulatorTrace& t, const std::string& title,
                       const std::string& name) {
-  Panel panel;
-  panel.title = title;
-  panel.x = {"time $t$", "s", {t.time(t.scored_from), t.time(t.x1.size() - 1)}, {}, {}};
-  panel.y = {name, r.coordinates.position_unit(), {}, {}, {}};
-  panel.height = 420.0;
-  return panel;
+  return {title,
+          {"time $t$", "s", {t.time(t.scored_from), t.time(t.x1.size() - 1)}},
+          {name, r.coordinates.position_unit()},
+          420.0};
 }
 
 }  // namespace
 
 FigureData diagnosis_simulator(const DiagnosisResult& r) {
-  FigureData figure;
-  figure.file = "diagnosis_simulator.png";
-  figure.title = "Drive, your simulator and the fitted model";
-  if (!r.simulated || r.simulated->traces.empty()) {
-    figure = missing_figure(figure.file, figure.title, "no simulator was given");
-    figure.expected = false;
-    return figure;
-  }
+  FigureData figure{"diagnosis_simulator.png", "Drive, your simulator and the fitted model"};
+  if (!r.simulated || r.simulated->traces.empty())
+    return missing_figure(figure, "no simulator was given", false);
   const SimulatorTrace& t = r.simulated->traces.front();
   Panel motion = simulator_panel(r, t, "Held-out input", "displacement $x_1$");
   motion.series.push_back(simulator_line("drive", measured_style(), t, t.x1));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/markup_text.h"
 #include "report/rich_text.h"
 
 namespace gapscope::internal::report {

@@ -81,14 +81,11 @@ class MapRow {
  private:
   Panel scatter(const std::string& title, const Axis& x, const std::vector<double>& of,
                 const std::vector<double>& residual, double peak) const {
-    Panel panel;
-    panel.title = title;
-    panel.x = x;
-    panel.y = correction_axis(r_);
+    Panel panel{title, x, correction_axis(r_)};
     if (peak > 0.0) panel.y.range = {-peak, peak};
     panel.height = 520.0;
-    Series plus{"forward", {kVermillion, 2.0, {}}, {}, {}}, minus{"backward", {kBlue, 2.0, {}}, {}, {}},
-        rest{"at rest", {kGrey, 2.0, {}}, {}, {}};
+    Series plus{"forward", {kVermillion, 2.0, {}}}, minus{"backward", {kBlue, 2.0, {}}},
+        rest{"at rest", {kGrey, 2.0, {}}};
     plus.joined = minus.joined = rest.joined = false;
     plus.marker = Marker::kTriangleUp, minus.marker = Marker::kTriangleDown, rest.marker = Marker::kCross;
     for (std::size_t i = 0; i < of.size(); ++i) {
@@ -104,7 +101,7 @@ class MapRow {
   /// What the scale leaves out, marked at the edge and counted.
   static void add_outside(Panel& panel, const std::vector<double>& of, const std::vector<double>& residual,
                           double peak) {
-    Series outside{"", {kInk, 2.0, {}}, {}, {}};
+    Series outside{"", {kInk, 2.0, {}}};
     outside.joined = false, outside.marker = Marker::kCircle;
     std::size_t drawn = 0;
     for (std::size_t i = 0; i < of.size(); ++i) {
@@ -129,7 +126,7 @@ class MapRow {
           static_cast<std::size_t>(std::min(kCurveBins - 1.0, kCurveBins * (of[i] - *low) / (*high - *low)));
       taken[bin].push_back(s_.before[i] - s_.after[i]), places[bin].push_back(of[i]);
     }
-    Series curve{direction > 0 ? "taken by what was added" : "", {kInk, 4.0, {}}, {}, {}};
+    Series curve{direction > 0 ? "taken by what was added" : "", {kInk, 4.0, {}}};
     for (std::size_t i = 0; i < taken.size(); ++i) {
       if (taken[i].empty() && !curve.y.empty() &&
           std::isfinite(curve.y.back()))  // nothing was recorded there
@@ -197,19 +194,19 @@ FigureData diagnosis_torque_map(const DiagnosisResult& r) {
   const ErrorBudget& budget = r.diagnosis.budget;
   const std::string band = t == nullptr ? "" : band_words(budget, *t);
   figure.title = "Correcting " + torque_word(r) + band;
-  if (t == nullptr) return missing_figure(figure.file, figure.title, "the fitted motion diverges");
+  if (t == nullptr) return missing_figure(figure, "the fitted motion diverges");
   const bool both = added(r) && t->torque_after.size() == t->x1.size();
   const Sampled s = sampled(budget, *t, both);
   const MapRow row(r, s, band, both);
   const auto over_speed = [&] {
     const std::string name = reads_load(r) ? "speed $w_2$" : "speed $w_1$";
-    row.add(figure, "the speed", {name, r.coordinates.shown_unit("rad/s"), {}, {}, {}}, s.speed);
+    row.add(figure, "the speed", {name, r.coordinates.shown_unit("rad/s")}, s.speed);
   };
   if (goes_with_speed(r)) over_speed();
-  row.add(figure, "the " + angle_word(r),
-          {angle_word(r) + " " + position_name(r), length_unit(r), {}, {}, {}}, s.position);
+  row.add(figure, "the " + angle_word(r), {angle_word(r) + " " + position_name(r), length_unit(r)},
+          s.position);
   if (!goes_with_speed(r)) over_speed();
-  row.add(figure, "the input", {"input $u$", input_unit(r), {}, {}, {}}, s.input, false);
+  row.add(figure, "the input", {"input $u$", input_unit(r)}, s.input, false);
   if (both) figure.width = 3200.0, figure.columns = 2;
   figure.reading = cycles_reading(r);
   return figure;

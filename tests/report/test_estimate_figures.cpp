@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "report/error_scale.h"
 #include "report/fig6_one_period.h"
 #include "report/figures.h"
 #include "report/full_run.h"
 #include "report/sample_run.h"
 #include "report/signals.h"
+#include "report/view_signals.h"
 
 namespace gapscope::internal::report {
 namespace {

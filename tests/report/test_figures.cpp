@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/error_scale.h"
 #include "report/fig6_one_period.h"
 #include "report/figures.h"
 #include "report/full_run.h"
 #include "report/sample_run.h"
 #include "report/signals.h"
+#include "report/view_signals.h"
 
 namespace gapscope::internal::report {
 namespace {

@@ -8,10 +8,10 @@
 #include "report/clear_texts.h"
 #include "report/diagnosis_figures.h"
 #include "report/draw_figure.h"
-#include "report/drive_signal.h"
 #include "report/error_budget.h"
 #include "report/full_run.h"
 #include "report/markdown.h"
+#include "report/view_signals.h"
 #include "support/told.h"
 
 namespace gapscope {
