@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <optional>
 
 #include "results/json_archive.h"
@@ -22,18 +23,10 @@ void fields(Archive& archive, Tolerance& t) {
   limit_field(archive, "gap_rad", t.gap);
 }
 
-template <class Archive>
-void fields(Archive& archive, CardText& c) {
-  archive("gap", c.gap);
-  archive("mismatch", c.mismatch);
-  archive("place", c.place);
-  archive("cause", c.cause);
-  archive("helps", c.helps);
-  archive("next", c.next);
-}
-
-template <class Archive>
-void fields(Archive& archive, CardCodes& c) {
+/// The lines of a card as texts, and as the codes of what they say.
+template <class Archive, class Lines>
+requires std::same_as<Lines, CardText> || std::same_as<Lines, CardCodes>
+void fields(Archive& archive, Lines& c) {
   archive("gap", c.gap);
   archive("mismatch", c.mismatch);
   archive("place", c.place);

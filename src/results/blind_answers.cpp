@@ -1,8 +1,8 @@
 #include "gapscope/base/errors.h"
 #include "results/blind_files.h"
-#include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"
+#include "results/shared_fields.h"
 
 namespace gapscope {
 namespace internal::results {

@@ -1,10 +1,10 @@
 #include "results/blind_files.h"
 
 #include "gapscope/base/errors.h"
-#include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"
 #include "results/sha256.h"
+#include "results/shared_fields.h"
 
 namespace gapscope {
 namespace internal::results {

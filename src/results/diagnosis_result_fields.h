@@ -6,20 +6,22 @@
 
 #include "results/answer_fields.h"
 #include "results/diagnosis_result.h"
-#include "results/doubt_fields.h"
-#include "results/encoder_side_field.h"
-#include "results/error_budget_fields.h"
-#include "results/file_hash_fields.h"
-#include "results/input_facts_fields.h"
 #include "results/json_archive.h"
-#include "results/last_resort_fields.h"
+#include "results/shared_fields.h"
 #include "results/simulator_fields.h"
-#include "results/stored_mismatch_fields.h"
+#include "results/torque_fields.h"
 
 /// The fields of a stored diagnosis, each named once; those that readers outside the project rely on first.
 namespace gapscope::internal::results {
 
 inline constexpr const char* kDiagnosisSchema = "gapscope.diagnosis/2";
+
+/// A trace without its columns, which are in the trace file.
+struct StoredMismatch {
+  std::string trace;
+  int samples = 0, scored_from = 0;
+  MismatchTrace mismatch;
+};
 
 struct DiagnosisDocument {
   std::string schema = kDiagnosisSchema;
@@ -27,6 +29,17 @@ struct DiagnosisDocument {
   std::vector<StoredMismatch> held_out;
   std::optional<SimulatorDocument> simulated = {};
 };
+
+template <class Archive>
+void fields(Archive& archive, StoredMismatch& s) {
+  archive("file", s.mismatch.file);
+  archive("trace", s.trace);
+  archive("samples", s.samples);
+  archive("start_s", s.mismatch.start);
+  archive("dt_s", s.mismatch.dt);
+  archive("scored_from", s.scored_from);
+  encoder_side_field(archive, s.mismatch.encoder);
+}
 
 template <class Archive>
 void fields(Archive& archive, RankedEffect& r) {

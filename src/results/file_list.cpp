@@ -4,10 +4,10 @@
 
 #include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "results/file_hash_fields.h"
 #include "results/json_document.h"
 #include "results/json_schema.h"
 #include "results/sha256.h"
+#include "results/shared_fields.h"
 
 namespace gapscope::internal::results {
 namespace {

@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "results/answer_fields.h"
-#include "results/doubt_fields.h"
-#include "results/encoder_side_field.h"
-#include "results/file_hash_fields.h"
-#include "results/input_facts_fields.h"
 #include "results/json_archive.h"
 #include "results/run_result.h"
+#include "results/shared_fields.h"
 
 /// The fields of a stored result, each named once. The first ones of every list are those that readers
 /// outside the project rely on; the rest is what a report needs beside them.

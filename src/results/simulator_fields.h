@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "diagnosis/simulator.h"
-#include "results/file_hash_fields.h"
 #include "results/json_archive.h"
+#include "results/shared_fields.h"
 
 /// The fields of the user's simulator beside the drive.
 namespace gapscope::internal::results {

@@ -9,9 +9,9 @@
 
 #include "base/shown.h"
 #include "gapscope/base/errors.h"
-#include "results/file_hash_fields.h"
 #include "results/folder_content.h"
 #include "results/json_document.h"
+#include "results/shared_fields.h"
 
 namespace gapscope::internal::results {
 namespace {
