@@ -14,7 +14,6 @@
 #include "config/data_reader.h"
 #include "config/starter_choice.h"
 #include "config/starter_motor.h"
-#include "config/starter_order.h"
 #include "config/units_reader.h"
 #include "config/yaml_writer.h"
 #include "gapscope/inspection/inspection.h"
