@@ -1,20 +1,74 @@
 // MCAP (mcap.dev/spec): a magic, then records of an opcode (1 byte), a length (8) and their content, to a
 // second magic. Read from the first to the last; its index is not needed.
 #include <fmt/format.h>
+#include <lz4frame.h>
 #include <zlib.h>
+#include <zstd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <string>
+#include <string_view>
 
 #include "base/shown.h"
 #include "gapscope/base/errors.h"
 #include "recording/message_log.h"
 #include "recording/recorded_rows.h"
-#include "recording/unpack.h"
 
 namespace gapscope::internal::recording {
 namespace {
+
+#ifdef GAPSCOPE_LZ4
+bool unpack_lz4(std::string_view packed, std::string& to) {
+  LZ4F_dctx* context = nullptr;
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) return false;
+  std::size_t had = 0, left = 1;
+  while (!packed.empty() && left != 0) {
+    std::size_t out = to.size() - had, in = packed.size();
+    left = LZ4F_decompress(context, to.data() + had, &out, packed.data(), &in, nullptr);
+    if (LZ4F_isError(left) != 0 || (in == 0 && out == 0)) break;
+    packed.remove_prefix(in);
+    had += out;
+  }
+  LZ4F_freeDecompressionContext(context);
+  return left == 0 && had == to.size() && packed.empty();
+}
+#endif
+
+#ifdef GAPSCOPE_ZSTD
+bool unpack_zstd(std::string_view packed, std::string& to) {
+  return ZSTD_decompress(to.data(), to.size(), packed.data(), packed.size()) == to.size();
+}
+#endif
+
+/// Bytes that were compressed, of a size that is known; takes no more memory than that.
+/// @param compression  "", "lz4" (frames) or "zstd"
+/// @param problem  why there are none: damaged, or a compression that this build has not
+bool unpack(const std::string& compression, std::string_view packed, std::size_t size, std::string& to,
+            std::string& problem) {
+  bool whole = false, known = true;
+  to.resize(size);
+  if (compression.empty()) {
+    whole = packed.size() == size;
+    if (whole) to = packed;
+#ifdef GAPSCOPE_LZ4
+  } else if (compression == "lz4") {
+    whole = unpack_lz4(packed, to);
+#endif
+#ifdef GAPSCOPE_ZSTD
+  } else if (compression == "zstd") {
+    whole = unpack_zstd(packed, to);
+#endif
+  } else {
+    known = false;
+  }
+  if (!known)
+    problem = fmt::format("is compressed by {}, which this build does not read", shown(compression));
+  else if (!whole)
+    problem = fmt::format("does not unpack to {} bytes", size);
+  return whole;
+}
 
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr std::uint64_t kLargestRecord = 256u << 20;  ///< that is read or unpacked at once [bytes]
