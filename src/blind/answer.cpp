@@ -1,9 +1,15 @@
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 
+#include "base/input_file.h"
 #include "base/interrupt.h"
 #include "base/move_file.h"
 #include "base/parallel.h"
@@ -11,18 +17,75 @@
 #include "base/text.h"
 #include "blind/answer_journal.h"
 #include "blind/blind_check.h"
-#include "blind/case_copy.h"
 #include "blind/expected_place.h"
+#include "blind/sealed_files.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/base/version.h"
 #include "gapscope/diagnosis/diagnosis.h"
 #include "gapscope/plant/effect.h"
 #include "results/blind_files.h"
+#include "results/blind_records.h"
 #include "results/sha256.h"
 #include "run/run_diagnosis.h"
 
 namespace gapscope {
 namespace {
+
+/// The files of a case, verified and in a place that nobody else knows: whatever happens to the originals
+/// meanwhile, what is diagnosed is what was sealed.
+class CaseCopy {
+ public:
+  /// @throws ConfigError for a file that is not the one that was sealed; std::runtime_error where there is no
+  /// room for the copies
+  CaseCopy(const std::string& folder, const SealedCase& sealed);
+  ~CaseCopy();
+  CaseCopy(const CaseCopy&) = delete;
+  CaseCopy& operator=(const CaseCopy&) = delete;
+
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+};
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in = open_input_file(path, "one that was sealed");
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) throw ConfigError(path, "cannot be read, expected a readable file");
+  return bytes;
+}
+
+void copy_file(const std::string& folder, const std::string& name, const FileHash& sealed,
+               const fs::path& to) {
+  blind::require_inside(sealed.file, folder + "/manifest.json");
+  const std::string from = folder + "/" + sealed.file, bytes = bytes_of(from);
+  blind::verify_file(from, sha256(bytes), name, sealed);
+  fs::create_directories((to / sealed.file).parent_path());
+  std::ofstream out(to / sealed.file, std::ios::binary);
+  if (!(out << bytes).flush())
+    throw std::runtime_error((to / sealed.file).string() + ": cannot be written, expected room for a copy");
+}
+
+CaseCopy::CaseCopy(const std::string& folder, const SealedCase& sealed) {
+  std::string name = (fs::temp_directory_path() / "gapscope-case-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw std::runtime_error(name + ": cannot be made, expected a writable folder for temporary files");
+  folder_ = name;
+  try {
+    for (const FileHash& file : sealed.files) copy_file(folder, sealed.name, file, folder_);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    throw;
+  }
+}
+
+CaseCopy::~CaseCopy() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
 
 /// What a sheet names was sealed with it.
 void require_sealed(const Configuration& c, const SealedCase& sealed) {
@@ -69,7 +132,7 @@ std::vector<std::string> established_of(const Diagnosis& d) {
 }
 
 BlindAnswer answer_to(const std::string& folder, const SealedCase& c) {
-  const blind::CaseCopy copy(folder, c);
+  const CaseCopy copy(folder, c);
   Diagnosis d;
   try {
     d = diagnosis_of(copy.folder() + "/" + c.name + ".yaml", c);

@@ -1,25 +1,86 @@
 #include "campaign/runner.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
 #include <new>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "campaign/recorded_data.h"
 #include "campaign/store_header.h"
-#include "campaign/told.h"
+#include "config/configuration.h"
 #include "gapscope/base/errors.h"
+#include "gapscope/reference/fit_summary.h"
+#include "results/sha256.h"
 #include "run/run_pipeline.h"
 #include "sliding_mode/bound_bank.h"
 
 namespace gapscope {
 namespace {
+
+/// " (1.25 of the plant's)" for a number that is not the plant's.
+std::string how_far_off(const FittedParameter& p, const SimulatedPlant& plant) {
+  constexpr double kSame = 1e-9;
+  for (int i = 0; i < kDriveParameterCount; ++i) {
+    if (kDriveParameters[i].key != p.key || !has_parameter(plant.structure, i)) continue;
+    const double own = drive_parameter(plant.drive, i);
+    if (std::abs(p.value - own) <= kSame * std::abs(own)) return "";
+    return own != 0.0 ? fmt::format(" ({:.3g} of the plant's)", p.value / own)
+                      : fmt::format(" ({:.3g}, the plant has 0)", p.value);
+  }
+  return "";
+}
+
+bool has(const std::vector<EffectConfig>& effects, std::string_view name) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const EffectConfig& e) { return name == e.effect.entry->name; });
+}
+
+std::string_view bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+/// The numbers that the fit was told, with how far they are off where the plant has others:
+/// "motor_inertia, contact_stiffness (1.25 of the plant's)".
+std::string told_to(const FitSummary& fit, const Configuration& c) {
+  std::vector<std::string> told;
+  for (const std::string& key : fit.given())
+    told.push_back(key + (c.simulation ? how_far_off(*fit.find(key), c.simulation->plant) : ""));
+  return fmt::format("{}", fmt::join(told, ", "));
+}
+
+/// Effects, and the law of the contact, that the simulated plant has and the model has not:
+/// "contact_adhesion". Empty where there are none, or where nobody knows the drive.
+std::string lacked_by_model(const Configuration& c) {
+  if (!c.simulation) return "";
+  const SimulatedPlant& plant = c.simulation->plant;
+  std::vector<std::string> lacks;
+  for (const EffectConfig& e : plant.effects)
+    if (const bool there = e.effect.parameters[0].value != 0.0;
+        there && !has(c.model.effects, e.effect.entry->name))
+      lacks.emplace_back(e.effect.entry->name);
+  if (plant.structure.has_load && plant.structure.contact != c.model.structure.contact)
+    lacks.emplace_back(plant.structure.contact == ContactLaw::kRigid ? "rigid contact" : "compliant contact");
+  return fmt::format("{}", fmt::join(lacks, ", "));
+}
+
+/// Of the samples that the estimators read: the same text for the same samples alone.
+std::string data_of(const std::vector<Recording>& recordings) {
+  constexpr std::size_t kDigits = 16;
+  std::string all;
+  for (const Recording& r : recordings)
+    for (const std::vector<double>* column : {&r.u, &r.x1}) all += sha256(bytes_of(*column));
+  return sha256(all).substr(0, kDigits);
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -71,7 +132,7 @@ CampaignEstimate noted(const FitSummary& f, const Configuration& c) {
   e.reason_codes = f.why.codes();
   e.method = "fit";
   e.trust = to_string(f.trust);
-  e.told = internal::campaign::told_to(f, c);
+  e.told = told_to(f, c);
   e.passes = static_cast<double>(f.simulations);
   e.answers = false;
   const FittedParameter* gap = f.find("gap");
@@ -86,7 +147,7 @@ CampaignEstimate noted(const FitSummary& f, const Configuration& c) {
 }
 
 void note_result(const RunResult& r, const Configuration& c, CampaignRow& row) {
-  row.data = internal::campaign::data_of(r.recordings);
+  row.data = data_of(r.recordings);
   row.samples = row.recorded = 0.0;
   for (const Recording& recording : r.recordings) {
     row.samples += static_cast<double>(recording.size());
@@ -98,7 +159,7 @@ void note_result(const RunResult& r, const Configuration& c, CampaignRow& row) {
   if (r.reference) {
     row.reference = noted(*r.reference, c);
     row.rmse = r.reference->rmse;
-    row.lacks = internal::campaign::lacked_by_model(c);
+    row.lacks = lacked_by_model(c);
   }
   if (!r.comparison) return;
   row.difference = r.comparison->difference;
