@@ -1,23 +1,106 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 #include "base/interrupt.h"
+#include "base/require.h"
+#include "config/configuration.h"
+#include "config/model_config.h"
 #include "gapscope/base/errors.h"
 #include "gapscope/recording/recording_file.h"
 #include "gapscope/simulation/closed_loop.h"
 #include "gapscope/simulation/simulate.h"
+#include "independent_plant/effects.h"
 #include "independent_plant/simulate.h"
 #include "recording/lost_rows.h"
 #include "results/sha256.h"
-#include "run/fastest_motion.h"
-#include "run/independent_effects.h"
 #include "run/run_pipeline.h"
 #include "run/shared_rows.h"
 
 namespace gapscope {
 namespace {
+
+using Values = std::array<double, kMostEffectParameters>;
+
+struct StatedAlike {
+  const char* effect;
+  void (*apply)(const Values& p, independent_plant::Effects& e);
+};
+
+constexpr StatedAlike kStatedAlike[] = {
+    {"contact_adhesion", [](const Values& p, independent_plant::Effects& e) { e.contact.release_nm = p[0]; }},
+    {"contact_hardening",
+     [](const Values& p, independent_plant::Effects& e) {
+       e.contact.hardening_per_rad2 = p[0] / (p[1] * p[1]);
+       e.contact.hardening_knee_rad = p[1];
+     }},
+    {"motor_coulomb_friction",
+     [](const Values& p, independent_plant::Effects& e) { e.motor.friction.level_nm = p[0]; }},
+    {"presliding_friction",
+     [](const Values& p, independent_plant::Effects& e) {
+       e.motor.bristle = {p[0], p[1], p[2]};
+     }},
+    {"stribeck_friction", [](const Values& p, independent_plant::Effects& e) {
+       e.motor.friction.level_nm = p[0];
+       e.motor.friction.stiction_ratio = p[1];
+       e.motor.friction.stribeck_speed_rad_s = p[2];
+       e.motor.friction.stribeck_exponent = p[3];
+     }}};
+
+/// Effects of the catalogue as the independent plant has them: laws of contact and friction that both codes
+/// state alike (test_simulation, Rigs). @throws std::logic_error for any that a configuration does not admit.
+independent_plant::Effects independent_effects(const std::vector<EffectConfig>& effects) {
+  independent_plant::Effects all;
+  for (const EffectConfig& e : effects) {
+    const auto known = std::find_if(std::begin(kStatedAlike), std::end(kStatedAlike), [&](const auto& k) {
+      return std::string_view(k.effect) == e.effect.entry->name;
+    });
+    GAPSCOPE_REQUIRE(known != std::end(kStatedAlike));
+    Values values{};
+    std::transform(e.effect.parameters.begin(), e.effect.parameters.end(), values.begin(),
+                   [](const ParameterSetting& p) { return p.value; });
+    known->apply(values, all);
+  }
+  return all;
+}
+
+/// A row may hold so many time constants of the fastest motion, or the path through an impact in it cannot be
+/// followed (and many times more take minutes).
+inline constexpr double kMostTimesInARow = 1500.0;
+
+/// What moves fastest in a drive: a body against its damper or, while the gap is closed, both against the
+/// contact [1/s].
+double fastest_rate(const SimulatedPlant& plant) {
+  const DriveParameters<double>& p = plant.drive;
+  const double motor = p.motor_damping / p.motor_inertia;
+  if (!plant.structure.has_load) return motor;
+  const bool locked = plant.structure.load == LoadKind::kLocked;
+  const double of_load = locked ? 0.0 : 1.0 / (p.motor_inertia * p.mass_ratio);
+  const double bodies = std::max(motor, p.load_damping * of_load);
+  if (plant.structure.contact == ContactLaw::kRigid) return bodies;
+  const double mobility = 1.0 / p.motor_inertia + of_load;
+  return bodies + std::max(std::sqrt(p.contact_stiffness * mobility), p.contact_damping * mobility);
+}
+
+/// @throws ConfigError where that is out of all proportion to the rows of the simulation
+void require_followable(const Configuration& c) {
+  const SimulationConfig& s = *c.simulation;
+  const double rate = fastest_rate(s.plant);
+  if (rate <= kMostTimesInARow * s.rate) return;
+  throw ConfigError(
+      c.file, s.line,
+      fmt::format(
+          "simulates a drive whose fastest motion, of its inertias against dampers and contact, has a "
+          "time constant of {:.2g} s: a row holds {:.2g} of them, expected at most {:.0f}: a larger "
+          "motor_inertia, a softer contact, less damping, or a rate of {:.2g} Hz",
+          1.0 / rate, rate / s.rate, kMostTimesInARow, rate / kMostTimesInARow));
+}
 
 /// The file's own name; where two files share it, the path as it was given, without separators, and where a
 /// file comes twice, with the window.
@@ -72,7 +155,7 @@ independent_plant::BlindDrive independent_drive(const SimulationConfig& s) {
   d.gap = p.gap;
   d.contact_stiffness = p.contact_stiffness;
   d.contact_damping = p.contact_damping;
-  d.effects = internal::run::independent_effects(s.plant.effects);
+  d.effects = independent_effects(s.plant.effects);
   d.x1 = s.initial.x1, d.w1 = s.initial.w1;
   d.x2 = s.initial.x2, d.w2 = s.initial.w2;
   return d;
@@ -191,7 +274,7 @@ void require_unchanged(const Configuration& c, const std::vector<FileHash>& sour
 }
 
 Recording simulated_recording(const Configuration& c) {
-  internal::run::require_followable(c);
+  require_followable(c);
   const SimulationConfig& s = *c.simulation;
   SimulationOptions options;
   options.rate = s.rate;

@@ -18,12 +18,11 @@
 #include "run/closed_loop.h"
 #include "run/doubtful_delay.h"
 #include "run/fitted_command.h"
-#include "run/guess_words.h"
 #include "run/read_gap.h"
 #include "run/run_simulator.h"
+#include "run/run_words.h"
 #include "run/settle_rate.h"
 #include "run/shared_rows.h"
-#include "run/simulated_words.h"
 
 namespace gapscope {
 namespace {

@@ -17,9 +17,8 @@
 #include "gapscope/sliding_mode/detector.h"
 #include "run/checked.h"
 #include "run/fitted_command.h"
-#include "run/guess_words.h"
+#include "run/run_words.h"
 #include "run/settle_rate.h"
-#include "run/simulated_words.h"
 #include "telling/answer.h"
 
 namespace gapscope {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "run/guess_words.h"
+#include "run/run_words.h"
 
 namespace gapscope::internal::run {
 namespace {

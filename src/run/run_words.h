@@ -22,4 +22,8 @@ std::string hanging_warning(const Configuration& configuration, const ReferenceM
 /// What is known of u; nothing where nothing is.
 std::optional<InputFacts> known_input(const Configuration& configuration);
 
+/// What a reader must know of data that no drive has made; empty where none is known to be such.
+/// @param fitted  a model is fitted to them, which then says that the code agrees with itself
+std::vector<std::string> simulated_words(const Configuration& configuration, bool fitted);
+
 }  // namespace gapscope::internal::run
