@@ -3,15 +3,69 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "reference/identifiability.h"
+#include "reference/information.h"
 #include "reference/outcome.h"
-#include "reference/prediction.h"
 #include "reference/search.h"
+#include "reference/solvers.h"
 #include "reference/starts.h"
 #include "reference/words.h"
 
 namespace gapscope::internal::reference {
+namespace {
+
+/// Covariance of the free parameters, in solver units, by two readings of the residuals, of which the larger
+/// holds. Directions that the fit does not determine at all count for nothing here, see determine().
+struct Covariances {
+  Eigen::MatrixXd white;    ///< of autocorrelated residuals; empty: the motion diverges
+  Eigen::MatrixXd scatter;  ///< of the scatter of the windows' scores
+};
+Covariances covariances_at(const FitProblem& fitted, const FitPoint& at, double observer_hz);
+
+/// Of JᵀJ, over the directions that are determined.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& normal, double max_condition) {
+  const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * normal *
+                                                             scale.asDiagonal());
+  const double least = eigen.eigenvalues().maxCoeff() / max_condition;
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([&](double e) { return e > least ? 1.0 / e : 0.0; });
+  const Eigen::MatrixXd v = scale.asDiagonal() * eigen.eigenvectors();
+  return v * inverse.asDiagonal() * v.transpose();
+}
+
+Covariances covariances_at(const FitProblem& fitted, const FitPoint& at, double observer_hz) {
+  const auto shared = static_cast<Eigen::Index>(fitted.free_count());
+  const Information info = information_at(fitted, at, observer_hz);
+  if (!info.valid) return {};
+  const Eigen::MatrixXd inverse = inverse_of(info.normal, fitted.options.max_condition);
+  const double windows = std::max(2, info.window_count);
+  return {info.variance * info.inflation * inverse.topLeftCorner(shared, shared),
+          windows / (windows - 1.0) * (inverse * info.windows * inverse).topLeftCorner(shared, shared)};
+}
+
+/// What a fit leaves open of another motion, to first order: the standard deviation of its prediction, rms
+/// over the samples [floor], by the larger covariance sample by sample. NaN where a motion diverges.
+/// @param there derivatives of the other motion by the shared numbers
+double prediction_std(const FitProblem& fitted, const FitPoint& at, std::span<const LinearResiduals> there,
+                      double observer_hz) {
+  if (there.empty()) return kNaN;
+  if (fitted.free_count() == 0) return 0.0;
+  const Covariances of = covariances_at(fitted, at, observer_hz);
+  if (of.white.size() == 0) return kNaN;
+  double sum = 0.0, samples = 0.0;
+  for (const LinearResiduals& r : there) {
+    const Eigen::MatrixXd& j = r.derivatives;
+    const Eigen::ArrayXd by_white = (j * of.white).cwiseProduct(j).rowwise().sum().array();
+    const Eigen::ArrayXd by_scatter = (j * of.scatter).cwiseProduct(j).rowwise().sum().array();
+    sum += by_white.max(by_scatter).sum(), samples += static_cast<double>(j.rows());
+  }
+  return std::sqrt(sum / samples);
+}
+
+}  // namespace
 
 ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
   const auto index = static_cast<std::size_t>(id.index);
