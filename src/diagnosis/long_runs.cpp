@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/normal.h"
 #include "gapscope/simulation/closed_loop.h"
@@ -126,6 +128,20 @@ FittedModel fitted_for_runs(const Study& study, const FittedModel& model) {
   moved.balanced = false;
   tell_moved(fit, from, model.model, *to, moved);
   return moved;
+}
+
+ScoredModel settled(const Study& study, const ScoredModel& model) {
+  if (!std::isfinite(model.fitted.mean_cost)) return model;
+  const double hz = study.observer_hz;
+  FitOptions options = study.options.fit;
+  options.work = nullptr;  // none of a search, which has its limit
+  const reference::ModelFit fit(study.train, model.fitted.model, options, hz);
+  const reference::FitPoint at = fit.point_of(model.fitted.model, starts_on(study, model.fitted));
+  std::optional<reference::SettledFit> found = fit.settled(at, study.effort.settling);
+  if (!found) return judge(model.entry, fitted_for_runs(study, model.fitted), study.held_out, hz);
+  FittedModel fitted = fitted_at(fit, found->end);
+  fitted.errors = std::move(found->errors);
+  return judge(model.entry, std::move(fitted), study.held_out, hz);
 }
 
 }  // namespace gapscope::internal::diagnosis

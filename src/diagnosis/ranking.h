@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "diagnosis/candidates.h"
@@ -84,5 +85,9 @@ bool helps(const ScoredModel& before, const ScoredModel& after, bool repeats_bad
 double relative_gain(const ScoredModel& before, const ScoredModel& after);
 /// Of the free runs above the floor; of the innovations where none is.
 double share_of_windows_better(const ScoredModel& before, const ScoredModel& after);
+
+/// What a reader should know of a candidate before trusting its numbers: that it helps in one measure only,
+/// changes next to nothing, or has ended at a bound. Empty if nothing speaks against it.
+std::string remark_on(const ScoredModel& candidate, const ScoredModel& before);
 
 }  // namespace gapscope::internal::diagnosis

@@ -5,12 +5,12 @@
 #include <functional>
 
 #include "base/text.h"
+#include "diagnosis/long_runs.h"
 #include "diagnosis/mismatch_size.h"
 #include "diagnosis/open_question.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/probability.h"
-#include "diagnosis/remark.h"
-#include "diagnosis/settle.h"
+#include "diagnosis/ranking.h"
 #include "diagnosis/tell_budget.h"
 #include "diagnosis/tell_intervals.h"
 #include "diagnosis/under_controller.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "diagnosis/remark.h"
+#include "diagnosis/ranking.h"
 
 namespace gapscope::internal::diagnosis {
 namespace {

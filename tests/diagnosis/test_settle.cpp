@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "blind/blind_pair.h"
-#include "diagnosis/settle.h"
+#include "diagnosis/long_runs.h"
 #include "independent_plant/random_drive.h"
 
 namespace gapscope::internal::diagnosis {
