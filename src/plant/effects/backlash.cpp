@@ -1,6 +1,5 @@
 // backlash – a gap where the nominal model has none.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

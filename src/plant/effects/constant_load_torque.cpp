@@ -1,6 +1,5 @@
 // constant_load_torque – a steady torque on the load, or an offset of the input where there is no gap.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

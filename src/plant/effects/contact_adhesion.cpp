@@ -1,6 +1,5 @@
 // contact_adhesion – a closed contact holds until it is pulled apart.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

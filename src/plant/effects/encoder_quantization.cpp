@@ -1,6 +1,5 @@
 // encoder_quantization – the encoder is coarser than its sheet.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

@@ -1,6 +1,5 @@
 // friction_asymmetry – Coulomb and viscous friction of the motor differ with direction.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

@@ -1,6 +1,5 @@
 // gap_growth – the gap drifts over the recording, through wear or heat.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

@@ -1,6 +1,5 @@
 // impact_damping – the contact damps more or less than the nominal one.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

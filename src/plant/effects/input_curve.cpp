@@ -1,6 +1,5 @@
 // input_curve – law of last resort: the input that acts is any function of the one that is given.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 #include "plant/effects/node_curve.h"

@@ -1,6 +1,5 @@
 // input_dead_zone – small inputs give no torque; the threshold is missing beyond.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

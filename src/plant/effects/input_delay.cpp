@@ -1,6 +1,5 @@
 // input_delay – the input acts later, by any fraction of a sample.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

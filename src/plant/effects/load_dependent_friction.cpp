@@ -1,6 +1,5 @@
 // load_dependent_friction – friction of the gears, which grows with the torque that they carry.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

@@ -1,6 +1,5 @@
 // load_inertia_variation – the load inertia changes during the recording.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

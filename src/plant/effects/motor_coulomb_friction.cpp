@@ -1,6 +1,5 @@
 // motor_coulomb_friction – dry friction on the motor side, set-valued at rest.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 

@@ -1,6 +1,5 @@
 // quadratic_drag – drag of the motor side that grows with the square of the speed.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 #include "plant/effects/smooth_functions.h"

@@ -1,6 +1,5 @@
 // shaft_compliance – the contact is softer or stiffer than the nominal one.
 #include <array>
-#include <cmath>
 
 #include "plant/effects/define_effect.h"
 
