@@ -59,7 +59,7 @@ constexpr std::array kWaveforms{
     independent_plant::Waveform::kTrapezoid, independent_plant::Waveform::kSteps};
 
 void set(ReferenceModel& model, int index, double value, bool estimate) {
-  ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
+  ParameterSetting& p = model.parameters[index];
   p.value = value;
   p.estimate = estimate;
 }

@@ -176,7 +176,7 @@ Undisturbed diagnosed(const Configuration& c, int threads, const Progress& progr
 
 ImplantHost host_of(const Configuration& c, const Undisturbed& u) {
   const ReferenceModel& model = u.diagnosis.fitted;
-  const auto value = [&](int index) { return model.parameters[static_cast<std::size_t>(index)].value; };
+  const auto value = [&](int index) { return model.parameters[index].value; };
   ImplantHost host;
   host.name = c.name;
   host.receiver =

@@ -26,10 +26,10 @@ struct Square {
   void add(const FitPiece& p) {
     at_values += p.square, samples += p.samples;
     for (Index i = 0, k = 0; i < slope.size(); ++i) {
-      slope[i] += p.slope[static_cast<std::size_t>(i)];
+      slope[i] += p.slope[i];
       for (Index j = 0; j <= i; ++j, ++k) {
-        normal(i, j) += p.normal[static_cast<std::size_t>(k)];
-        if (i != j) normal(j, i) += p.normal[static_cast<std::size_t>(k)];
+        normal(i, j) += p.normal[k];
+        if (i != j) normal(j, i) += p.normal[k];
       }
     }
   }
@@ -83,7 +83,7 @@ Matrix covariance_of(const Group& g, Index compared, const Vector& side) {
   const Matrix c = inverse_of(all.normal).topLeftCorner(compared, compared);
   Vector times(compared);
   for (Index i = 0; i < compared; ++i) {
-    const FittedParameter& p = *g.fit->find(g.keys[static_cast<std::size_t>(i)]);
+    const FittedParameter& p = *g.fit->find(g.keys[i]);
     const double half = side[i] > 0.0 ? p.ci95.high - p.value : p.value - p.ci95.low;
     times[i] = g.misfit * half / kNormal95 / std::sqrt(std::max(c(i, i), 1e-300));
   }
@@ -115,10 +115,8 @@ void add_to(const Square& s, double weight, const std::vector<Index>& places, co
             Matrix& normal, Vector& slope) {
   const Vector moved = s.slope - s.normal * ahead;
   for (Index i = 0; i < moved.size(); ++i) {
-    slope[places[static_cast<std::size_t>(i)]] += weight * moved[i];
-    for (Index j = 0; j < moved.size(); ++j)
-      normal(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) +=
-          weight * s.normal(i, j);
+    slope[places[i]] += weight * moved[i];
+    for (Index j = 0; j < moved.size(); ++j) normal(places[i], places[j]) += weight * s.normal(i, j);
   }
 }
 
@@ -133,7 +131,7 @@ TwoGroups::TwoGroups(const FitSummary& first, const FitSummary& now, const std::
     : first_(group_of(first, compared)), now_(group_of(now, compared)), compared_(std::ssize(compared)) {
   difference_.resize(compared_);
   for (Index i = 0; i < compared_; ++i) {
-    const std::string& key = compared[static_cast<std::size_t>(i)];
+    const std::string& key = compared[i];
     difference_[i] = now.find(key)->value - first.find(key)->value;
   }
   if (first_.pieces.empty() || now_.pieces.empty()) return;
@@ -145,7 +143,7 @@ double TwoGroups::p_if_only(const Differ& differ) const {
   const Matrix inverse = inverse_of(covariance_);
   std::vector<Index> free;
   for (Index i = 0; i < compared_; ++i)
-    if (differ[static_cast<std::size_t>(i)]) free.push_back(i);
+    if (differ[i]) free.push_back(i);
   const Vector pulled = inverse * difference_;
   double sum = difference_.dot(pulled);
   if (!free.empty()) {
@@ -162,7 +160,7 @@ double TwoGroups::held_out(const Differ& differ) const {
   const Vector none = Vector::Zero(std::ssize(first_.keys));
   Vector ahead = Vector::Zero(std::ssize(now_.keys));
   for (Index i = 0; i < compared_; ++i)
-    if (!differ[static_cast<std::size_t>(i)]) ahead[i] = difference_[i];
+    if (!differ[i]) ahead[i] = difference_[i];
   const double a = 1.0 / (first_.misfit * first_.misfit), b = 1.0 / (now_.misfit * now_.misfit);
   double sum = 0.0, samples = 0.0;
   for (std::size_t fold = 0; fold < folds; ++fold) {

@@ -244,8 +244,7 @@ const char* to_string(EncoderSides sides) {
 
 InputFacts Configuration::input_facts() const {
   InputFacts input;
-  input.constant_guessed =
-      model.given && model.guessed[static_cast<std::size_t>(drive_parameter_index("torque_constant"))];
+  input.constant_guessed = model.given && model.guessed[drive_parameter_index("torque_constant")];
   if (!recording) return input;
   const Quantity torque = coordinates.rotational() ? Quantity::kTorque : Quantity::kForce;
   const bool of_a_supply = recording->is_supplied();  // a duty times its volts

@@ -22,7 +22,7 @@ namespace {
 
 /// One of both ways to write a period; none is one turn of what it turns with.
 Json period_rule(const EffectEntry& entry) {
-  const Json periods = having(entry.parameters[static_cast<std::size_t>(entry.period_at())].key);
+  const Json periods = having(entry.parameters[entry.period_at()].key);
   const Json length = having(kPeriodKey);
   if (entry.turns_with == Shaft::kNone) return {{"oneOf", {periods, length}}};
   return none_of({{{"allOf", {periods, length}}}});
@@ -32,8 +32,7 @@ Json effect_schema(const EffectEntry& entry) {
   MapSchema parameters;
   for (const EffectParameterSpec& spec : entry.parameters) {
     parameters.add(spec.key, setting_schema(possible(spec), ""));
-    const bool period =
-        entry.period_at() >= 0 && &spec == &entry.parameters[static_cast<std::size_t>(entry.period_at())];
+    const bool period = entry.period_at() >= 0 && &spec == &entry.parameters[entry.period_at()];
     const auto place = static_cast<std::size_t>(&spec - entry.parameters.data());
     if (period)
       parameters.add(kPeriodKey, setting_schema(kPossiblePeriod, "in place of periods_per_turn"));

@@ -137,7 +137,7 @@ void read_law(const Value& value, const LawKeys& keys, ControllerModel& model) {
     if (key.fixed != nullptr)
       model.fixed.*key.fixed = given->number(key.range);
     else
-      model.numbers[static_cast<std::size_t>(key.number)] = read_number(*given, key, model.fixed.kind);
+      model.numbers[key.number] = read_number(*given, key, model.fixed.kind);
   }
 }
 
@@ -206,7 +206,7 @@ void write_law(YamlWriter& out, const char* name, const LawKeys& keys, const Con
     if (key.fixed == &DriveController::falls_sharpness && !(model.fixed.falls_at < kInfinity)) continue;
     const std::string unit = replaced(key.range.unit, "unit of u", unit_of_output);
     if (key.fixed == nullptr) {
-      const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(key.number)];
+      const ParameterSetting& setting = model.numbers[key.number];
       out.quantity(key.key, setting_text(setting), unit);
     } else if (const double value = model.fixed.*key.fixed; std::isfinite(value)) {
       out.quantity(key.key, yaml_number(value), unit);

@@ -55,7 +55,7 @@ std::vector<std::string> keys_of(const EffectEntry& entry) {
 
 void refuse_both(const Section& section, const EffectEntry& entry) {
   if (entry.period_at() < 0) return;
-  const char* const other = entry.parameters[static_cast<std::size_t>(entry.period_at())].key;
+  const char* const other = entry.parameters[entry.period_at()].key;
   if (const auto length = section.find(kPeriodKey); length && section.find(other))
     length->fail(fmt::format("stands beside {}, expected only one of both", other));
 }
@@ -126,7 +126,7 @@ void settle_periods(std::vector<EffectConfig>& effects, const ShaftTurns& turns,
   for (EffectConfig& e : effects) {
     const int at = e.effect.entry->period_at();
     if (at < 0 || e.effect.entry->turns_with == Shaft::kNone) continue;
-    ParameterSetting& period = e.effect.parameters[static_cast<std::size_t>(at)];
+    ParameterSetting& period = e.effect.parameters[at];
     if (std::isnan(period.value)) period.value = turns.of(e.effect.entry->turns_with);
     if (std::isnan(period.value))
       throw ConfigError(file, e.line,

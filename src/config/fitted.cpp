@@ -103,7 +103,7 @@ void set_plant(Configuration& c) {
   SimulatedPlant& plant = c.simulation->plant;
   plant = {c.model.structure, {}, c.model.effects};
   for (int i = 0; i < kDriveParameterCount; ++i) {
-    const double value = c.model.parameters[static_cast<std::size_t>(i)].value;
+    const double value = c.model.parameters[i].value;
     if (!std::isnan(value)) drive_parameter(plant.drive, i) = value;
   }
   c.simulation->independent = false;  // the model, whatever made the data

@@ -112,7 +112,7 @@ void put_behind_gear(WrittenModel& model, const std::optional<Value>& recording,
 }
 
 Range possible_parameter(int index) {
-  const auto& [low, high] = kPossible[static_cast<std::size_t>(index)];
+  const auto& [low, high] = kPossible[index];
   return {low, high, kDriveParameters[index].unit};
 }
 

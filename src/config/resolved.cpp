@@ -112,8 +112,7 @@ void write_model(YamlWriter& out, const ModelConfig& model, Coordinates coordina
     const bool derived = p.estimate && (std::isnan(p.low) || std::isnan(p.value));
     out.quantity(
         kDriveParameters[i].key,
-        model.guessed[static_cast<std::size_t>(i)] ? fmt::format("{{value: {}, guess: true}}", p.value)
-                                                   : setting_text(p),
+        model.guessed[i] ? fmt::format("{{value: {}, guess: true}}", p.value) : setting_text(p),
         std::string(kDriveParameters[i].unit) + (derived ? "; what is not here the fit derives" : ""));
   }
   out.close();

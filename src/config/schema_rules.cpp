@@ -89,7 +89,7 @@ void add_slide_rules(Json& c) {
     turning.push_back(having(kParameters + kDriveParameters[i].key + ".given_at", being("motor")));
   for (const EffectEntry* entry : effect_table()) {
     if (entry->period_at() < 0) continue;
-    const char* const periods = entry->parameters[static_cast<std::size_t>(entry->period_at())].key;
+    const char* const periods = entry->parameters[entry->period_at()].key;
     const Json open = {{"type", "object"}, {"not", {{"anyOf", {having(periods), having(kPeriodKey)}}}}};
     turning.push_back(having("model.effects", {{"contains", having(entry->name, open)}}));
   }

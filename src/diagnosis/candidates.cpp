@@ -154,8 +154,7 @@ bool has_effect(const ReferenceModel& model, const EffectEntry* entry) {
 bool is_candidate(const EffectEntry& entry, const ReferenceModel& model) {
   for (const ModelEffect& e : model.effects)
     if (e.entry == &entry || contained_effect(*e.entry) == &entry) return false;
-  if (entry.stands_for >= 0 && model.parameters[static_cast<std::size_t>(entry.stands_for)].estimate)
-    return false;
+  if (entry.stands_for >= 0 && model.parameters[entry.stands_for].estimate) return false;
   const bool has_load = model.structure.has_load;
   const ParameterSetting& gap = model.parameters[place::kGap];
   switch (entry.needs) {

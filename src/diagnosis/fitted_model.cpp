@@ -12,7 +12,7 @@ std::vector<std::string> at_bounds(const reference::ModelFit& fit, const referen
   const std::vector<ModelEffect>& effects = fit.model().effects;
   for (const reference::ParameterId& id : fit.at_bound(at))
     if (id.effect != reference::ParameterId::kDrive && id.effect + 1 == std::ssize(effects))
-      keys.emplace_back(effects.back().entry->parameters[static_cast<std::size_t>(id.index)].key);
+      keys.emplace_back(effects.back().entry->parameters[id.index].key);
   return keys;
 }
 

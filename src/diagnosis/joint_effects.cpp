@@ -47,7 +47,7 @@ ModelEffect not_there(const ModelEffect& other, const ModelEffect* relative, con
   const auto is_size = [&](std::size_t i) { return std::find(sizes.begin(), sizes.end(), i) != sizes.end(); };
   for (std::size_t i = 1; i < entry.parameters.size(); ++i)
     if (!names_phase(entry.parameters[i]) && !is_size(i)) e.parameters[i].estimate = false;
-  if (entry.stands_for >= 0) size.value = model.parameters[static_cast<std::size_t>(entry.stands_for)].value;
+  if (entry.stands_for >= 0) size.value = model.parameters[entry.stands_for].value;
   for (const std::size_t i : sizes)
     if (entry.parameters[i].absent == 0.0)
       e.parameters[i].value *= SearchEffort{}.weaker;  // of nothing at all a phase has no slope

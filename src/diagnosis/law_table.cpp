@@ -115,7 +115,7 @@ std::vector<CurvePoint> curve_of(const Study& study, const ScoredModel& after) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     CurvePoint c{points[i].at, points[i].direction, 0.0, {}};
     for (const auto& [id, weight] : points[i].sum)
-      c.torque += weight * model.effects.back().parameters[static_cast<std::size_t>(id.index)].value;
+      c.torque += weight * model.effects.back().parameters[id.index].value;
     if (!spreads.empty()) c.ci95 = normal_interval(c.torque, spreads[i]);
     curve.push_back(c);
   }

@@ -55,9 +55,7 @@ std::vector<PlannedRow> planned_rows(const JointFit& fit) {
   std::vector<PlannedRow> rows;
   for (std::size_t e = 0; e < fit.effects.size(); ++e) rows.push_back(effect_row(fit, e));
   for (int i = 0; i < kDriveParameterCount; ++i) {
-    if (!fit.drive.model.parameters[static_cast<std::size_t>(i)].estimate ||
-        !has_parameter(fit.drive.model.structure, i))
-      continue;
+    if (!fit.drive.model.parameters[i].estimate || !has_parameter(fit.drive.model.structure, i)) continue;
     PlannedRow& planned = rows.emplace_back();
     planned.row.name = kDriveParameters[i].key;
     planned.ids = {reference::drive_number(i)};
@@ -71,7 +69,7 @@ namespace {
 /// Of an effect that is not there nothing has a spread: a lag of no time has no slope that would tell how
 /// well its time is known.
 bool lacks_row(const SideFit& fit, const PlannedRow& planned) {
-  return planned.row.is_effect && is_absent(fit.model.effects[static_cast<std::size_t>(planned.effect)]);
+  return planned.row.is_effect && is_absent(fit.model.effects[planned.effect]);
 }
 
 std::vector<double> spreads_on(const Side& side, const SideFit& fit, const PlannedRow& planned) {
@@ -87,8 +85,7 @@ void fill_numbers(const RowInstrument& of, const JointFit& fit, PlannedRow& plan
     const ParameterId id = planned.ids[i];
     ComparedNumber n;
     if (planned.row.is_effect) {
-      const EffectParameterSpec& spec = fit.effects[static_cast<std::size_t>(id.effect)]
-                                            .drive.entry->parameters[static_cast<std::size_t>(id.index)];
+      const EffectParameterSpec& spec = fit.effects[id.effect].drive.entry->parameters[id.index];
       n.key = spec.key, n.unit = spec.unit;
     } else {
       n.key = kDriveParameters[id.index].key, n.unit = kDriveParameters[id.index].unit;
@@ -136,7 +133,7 @@ bool is_there(const Side& side, const SideFit& fit, const PlannedRow& planned, b
 }
 
 FoundIn found_in(const RowInstrument& of, const JointFit& fit, const PlannedRow& planned) {
-  const JointEffect& e = fit.effects[static_cast<std::size_t>(planned.effect)];
+  const JointEffect& e = fit.effects[planned.effect];
   const bool in_drive = is_there(of.drive, fit.drive, planned, e.in_drive, of.floor);
   const bool in_simulator = is_there(of.simulator, fit.simulator, planned, e.in_simulator, of.floor);
   if (in_drive) return in_simulator ? FoundIn::kBoth : FoundIn::kDrive;

@@ -45,7 +45,7 @@ bool is_line_of(const view::Term& term, const ReferenceModel& model) {
   };
   const auto effect = std::ranges::find_if(model.effects, has_the_name);
   if (effect == model.effects.end()) return true;
-  const double ratio = term.shape / effect->parameters[static_cast<std::size_t>(term.law->shape_at)].value;
+  const double ratio = term.shape / effect->parameters[term.law->shape_at].value;
   const double times = std::max(ratio, 1.0 / ratio);
   const double harmonic = std::clamp(std::round(times), 1.0, 3.0);  // the cogging's law has three
   return std::abs(times - harmonic) < kRule.same_period * harmonic;

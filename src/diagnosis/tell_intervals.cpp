@@ -61,8 +61,7 @@ bool are_same(const std::vector<NamedValue>& one, const std::vector<NamedValue>&
 std::vector<std::string> at_bound_of(const EffectEntry& entry, std::size_t effect, const FitErrors& fit) {
   std::vector<std::string> keys;
   for (const reference::ParameterId& id : fit.at_bound)
-    if (id.effect == static_cast<int>(effect))
-      keys.emplace_back(entry.parameters[static_cast<std::size_t>(id.index)].key);
+    if (id.effect == static_cast<int>(effect)) keys.emplace_back(entry.parameters[id.index].key);
   return keys;
 }
 
@@ -163,7 +162,7 @@ std::vector<RefittedNumber> refitted_of(const Study& study, const FittedModel& f
 std::vector<std::string> held_of(const ReferenceModel& sheet) {
   std::vector<std::string> held;
   for (const int i : {place::kMotorDamping, place::kLoadDamping, place::kLoadCoulombFriction})
-    if (has_parameter(sheet.structure, i) && !sheet.parameters[static_cast<std::size_t>(i)].estimate)
+    if (has_parameter(sheet.structure, i) && !sheet.parameters[i].estimate)
       held.emplace_back(kDriveParameters[i].key);
   return held;
 }
@@ -176,7 +175,7 @@ std::string words_of(const Disagreement& it, const ReferenceModel& model, Coordi
     return fmt::format("{} ({:.3g} and {:.3g} {})", p.key, it.by_run, it.by_torque,
                        coordinates.shown_unit(p.unit));
   }
-  const EffectEntry& entry = *model.effects[static_cast<std::size_t>(it.id.effect)].entry;
+  const EffectEntry& entry = *model.effects[it.id.effect].entry;
   const std::string unit = coordinates.shown_unit(entry.parameters[index].unit);
   return fmt::format("{}.{} ({:.3g} and {:.3g}{})", entry.name, entry.parameters[index].key, it.by_run,
                      it.by_torque, unit == "-" || unit.empty() ? "" : " " + unit);

@@ -74,8 +74,7 @@ void take_known(ReferenceModel& model, const view::Budget& budget, const view::D
     const view::Law* law = law_of(*effect.entry);
     const auto end = budget.addable.begin() + std::ssize(budget.nominal);
     const auto term = std::find_if(budget.addable.begin(), end, [&](const view::Term& t) {
-      return t.law == law && (law->shape_at < 0 ||
-                              t.shape == effect.parameters[static_cast<std::size_t>(law->shape_at)].value);
+      return t.law == law && (law->shape_at < 0 || t.shape == effect.parameters[law->shape_at].value);
     });
     if (term == end || !view::has_its_sign(*law, term->theta[0], drive.inertia)) continue;
     const std::vector<double> values = law->values(term->theta, term->shape, drive);
@@ -126,8 +125,7 @@ view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings
     const EffectEntry* contained = contained_effect(*e.entry);
     if (contained != nullptr && law->kind == view::Kind::kOnTorque)  // of which the law says nothing
       add_once(known, view::law(contained->name), kNaN);
-    const double shape =
-        law->shape_at < 0 ? shapes.front() : e.parameters[static_cast<std::size_t>(law->shape_at)].value;
+    const double shape = law->shape_at < 0 ? shapes.front() : e.parameters[law->shape_at].value;
     known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});
   }
   return known;
@@ -146,7 +144,7 @@ view::Drive drive_of(const view::Model& terms, const view::Budget& budget, const
 ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
   const view::Drive drive = drive_of(budget.addable, budget, model);
   const auto take = [&](int index, double value) {
-    ParameterSetting& p = model.parameters[static_cast<std::size_t>(index)];
+    ParameterSetting& p = model.parameters[index];
     if (p.estimate && value > 0.0) p.value = value;
   };
   take(place::kMotorInertia, drive.inertia);

@@ -67,8 +67,7 @@ void name_bins(double low, double width, const std::string& unit, std::vector<Ma
   const std::string shown = (factor > 1.0 ? "m" : "") + unit;
   const int decimals = std::clamp(static_cast<int>(std::ceil(1.0 - std::log10(factor * width))), 0, 9);
   for (int b = 0; b < kMapBins; ++b)
-    map[static_cast<std::size_t>(b)].bin =
-        range_key(factor * (low + b * width), factor * (low + (b + 1) * width), decimals, shown);
+    map[b].bin = range_key(factor * (low + b * width), factor * (low + (b + 1) * width), decimals, shown);
 }
 
 /// Bins of equal width between the extremes.
@@ -83,8 +82,8 @@ std::vector<MapShare> range_map(const std::vector<Sample>& samples, const Sample
   name_bins(low, width, unit, map);
   for (const Sample& s : samples) {
     const int b = std::min(kMapBins - 1, static_cast<int>((of(s) - low) / width));
-    map[static_cast<std::size_t>(b)].share += s.torque * s.torque;
-    map[static_cast<std::size_t>(b)].expected += 1.0;
+    map[b].share += s.torque * s.torque;
+    map[b].expected += 1.0;
   }
   return map;
 }

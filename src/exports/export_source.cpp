@@ -60,8 +60,7 @@ ExportSource source_of(const Configuration& c, std::vector<double> u, const std:
 
 void require_known(const Configuration& c) {
   for (int i = 0; i < kDriveParameterCount; ++i)
-    if (has_parameter(c.model.structure, i) &&
-        std::isnan(c.model.parameters[static_cast<std::size_t>(i)].value))
+    if (has_parameter(c.model.structure, i) && std::isnan(c.model.parameters[i].value))
       throw ConfigError(c.file,
                         fmt::format("{} of the model is not known, expected its number, or the report folder "
                                     "of a fit or diagnosis in place of the configuration",

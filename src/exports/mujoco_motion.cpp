@@ -84,7 +84,7 @@ void MujocoEngine::add_friction(const MujocoState& at, int body) {
   row.wanted = -2.0 / (hardest * time) * at.v[i];
   row.weight = weight_of(impedance, 1.0 / drive_.inertia[i]);
   row.low = -drive_.friction[i], row.high = drive_.friction[i];
-  rows_[static_cast<std::size_t>(count_++)] = row;
+  rows_[count_++] = row;
 }
 
 /// The limit of the tendon on the side that is beyond it.
@@ -99,7 +99,7 @@ void MujocoEngine::add_contact(const MujocoState& at) {
   row.wanted = mobility / kSoftest * (drive_.stiffness * depth + drive_.contact_damping * speed);
   row.weight = weight_of(kSoftest, mobility);
   row.high = HUGE_VAL;
-  rows_[static_cast<std::size_t>(count_++)] = row;
+  rows_[count_++] = row;
 }
 
 /// The acceleration where each row is as `saturated` says.  @returns whether each then is within its limits
@@ -107,7 +107,7 @@ bool MujocoEngine::settles(const Pair& smooth, Pair& a) {
   double m[3] = {drive_.inertia[0], 0.0, bodies_ == 2 ? drive_.inertia[1] : 1.0};  // 11, 12, 22
   Pair right = {m[0] * smooth[0], m[2] * smooth[1]};
   for (int n = 0; n < count_; ++n) {
-    const SoftConstraint& r = rows_[static_cast<std::size_t>(n)];
+    const SoftConstraint& r = rows_[n];
     const double weight = r.saturated == 0 ? r.weight : 0.0;
     const double force = r.saturated == 0 ? r.weight * r.wanted : r.saturated < 0 ? r.low : r.high;
     m[0] += weight * r.along[0] * r.along[0], m[1] += weight * r.along[0] * r.along[1];
@@ -117,7 +117,7 @@ bool MujocoEngine::settles(const Pair& smooth, Pair& a) {
   const double determinant = m[0] * m[2] - m[1] * m[1];
   a = {(m[2] * right[0] - m[1] * right[1]) / determinant, (m[0] * right[1] - m[1] * right[0]) / determinant};
   for (int n = 0; n < count_; ++n) {
-    const SoftConstraint& r = rows_[static_cast<std::size_t>(n)];
+    const SoftConstraint& r = rows_[n];
     const double force = -r.weight * (r.along[0] * a[0] + r.along[1] * a[1] - r.wanted);
     if (r.saturated == 0 ? force < r.low || force > r.high : r.saturated < 0 ? force > r.low : force < r.high)
       return false;
@@ -132,7 +132,7 @@ Pair MujocoEngine::constrained(const Pair& smooth) {
   for (int way = 0; way < ways; ++way) {
     bool possible = true;
     for (int n = 0, rest = way; n < count_; ++n, rest /= 3) {
-      SoftConstraint& row = rows_[static_cast<std::size_t>(n)];
+      SoftConstraint& row = rows_[n];
       row.saturated = rest % 3 - 1;
       possible = possible && !(row.saturated > 0 && std::isinf(row.high));
     }

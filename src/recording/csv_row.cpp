@@ -290,7 +290,7 @@ double CsvRow::supply() {
 
 /// The text of a number; of a list that of its element.
 std::string_view CsvRow::field(Place place, const std::string& column) const {
-  std::string_view text = fields_[static_cast<std::size_t>(place.column)];
+  std::string_view text = fields_[place.column];
   if (!text.starts_with('[') || !text.ends_with(']')) return text;
   text = text.substr(1, text.size() - 2);
   std::vector<std::string_view> elements;
@@ -306,9 +306,7 @@ std::string_view CsvRow::field(Place place, const std::string& column) const {
 
 std::string CsvRow::text_of(const std::string& column) const {
   const int at = column_of(column);
-  return at < 0 || at >= static_cast<int>(fields_.size())
-             ? ""
-             : std::string(fields_[static_cast<std::size_t>(at)]);
+  return at < 0 || at >= static_cast<int>(fields_.size()) ? "" : std::string(fields_[at]);
 }
 
 bool CsvRow::begins_with_text() const {
@@ -318,7 +316,7 @@ bool CsvRow::begins_with_text() const {
 }
 
 double CsvRow::number(Place place, const std::string& column, const UnitScale& scale) {
-  std::string_view text = fields_[static_cast<std::size_t>(place.column)];
+  std::string_view text = fields_[place.column];
   if (text.starts_with('[')) text = field(place, column);
   if (form_.separator != ',') text = with_decimal_point(text, column);
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);

@@ -21,8 +21,7 @@ Eigen::VectorXd slope_of(const Eigen::VectorXd& x, const std::vector<double>& t,
   const Eigen::Index n = x.size();
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = reach; i < n - reach; ++i)
-    slope(i) = (x(i + reach) - x(i - reach)) /
-               (t[static_cast<std::size_t>(i + reach)] - t[static_cast<std::size_t>(i - reach)]);
+    slope(i) = (x(i + reach) - x(i - reach)) / (t[i + reach] - t[i - reach]);
   return slope;
 }
 
@@ -51,7 +50,7 @@ class Fall {
     const auto rises_past = [&](double share) {
       Eigen::Index i = top;
       while (i > 0 && away(i) > share * most) --i;
-      const double t = t_[static_cast<std::size_t>(i)], next = t_[static_cast<std::size_t>(i + 1)];
+      const double t = t_[i], next = t_[i + 1];
       return t + (share * most - away(i)) / (away(i + 1) - away(i)) * (next - t);
     };
     return 2.0 * rises_past(0.1) - rises_past(0.2);
@@ -59,8 +58,7 @@ class Fall {
 
   /// Square of the acceleration that is left where the controller's torque ends at a time.
   double left_until(double off) {
-    for (Eigen::Index i = 0; i < size_; ++i)
-      laws_(i, 0) = t_[static_cast<std::size_t>(i)] < off ? error_(i) : 0.0;
+    for (Eigen::Index i = 0; i < size_; ++i) laws_(i, 0) = t_[i] < off ? error_(i) : 0.0;
     return (motion_ - laws_ * laws_.colPivHouseholderQr().solve(motion_)).squaredNorm();
   }
 

@@ -119,7 +119,7 @@ void add_controller(FitProblem& problem, const ControllerModel& model) {
   const double dt = problem.recordings.front().dt;
   const std::string output = output_unit(problem);
   for (int i = 0; i < kControllerNumberCount; ++i) {
-    const ParameterSetting& setting = model.numbers[static_cast<std::size_t>(i)];
+    const ParameterSetting& setting = model.numbers[i];
     if (!setting.estimate && !(std::abs(setting.value) > 0.0)) continue;
     problem.parameters.push_back(parameter_of_controller(i, setting, *problem.controller, dt, output));
   }

@@ -43,7 +43,7 @@ double inertia_of(const signals::OneBody& rough, bool free_load, double otherwis
 std::array<double, kDriveParameterCount> suggested(const signals::OneBody& rough, const ReferenceModel& model,
                                                    double constant) {
   const auto given = [&](int n, double otherwise) {
-    const double v = model.parameters[static_cast<std::size_t>(n)].value;
+    const double v = model.parameters[n].value;
     return v > 0.0 ? v : otherwise;
   };
   std::array<double, kDriveParameterCount> s{};
@@ -149,7 +149,7 @@ Parameter parameter_of_drive(int number, const ParameterSetting& setting, double
 
 Parameter parameter_of_effect(ParameterId id, const EffectEntry& effect, const ParameterSetting& setting,
                               const ScaleContext& context) {
-  const EffectParameterSpec& spec = effect.parameters[static_cast<std::size_t>(id.index)];
+  const EffectParameterSpec& spec = effect.parameters[id.index];
   const double scale = scale_value(spec.scale, context);
   const double usual = spec.low * scale + 0.1 * (spec.high - spec.low) * scale;
   Parameter p = start_parameter(id, setting, usual);
@@ -203,8 +203,7 @@ ScaleContext scales(const FitProblem& problem, const std::array<double, kDrivePa
   context.quantum = std::max(first.quantum, problem.floors.front());
   context.dt = first.dt;
   context.duration = first.dt * static_cast<double>(first.size());
-  for (int n = 0; n < kDriveParameterCount; ++n)
-    drive_parameter(context.nominal, n) = sizes[static_cast<std::size_t>(n)];
+  for (int n = 0; n < kDriveParameterCount; ++n) drive_parameter(context.nominal, n) = sizes[n];
   for (const Parameter& p : problem.parameters) drive_parameter(context.nominal, p.id.index) = p.start;
   return context;
 }
@@ -251,8 +250,7 @@ FitProblem with_law(const FitProblem& problem, const EffectEntry& law, std::span
                     FitPoint& from) {
   FitProblem more = problem;
   for (std::size_t i = 0; i < problem.free_count(); ++i)
-    more.parameters[static_cast<std::size_t>(problem.free[i])].start =
-        problem.free_parameter(i).coordinate.physical(from.q[i]);
+    more.parameters[problem.free[i]].start = problem.free_parameter(i).coordinate.physical(from.q[i]);
   const ScaleContext context = scales(more, {});
   const int place = static_cast<int>(more.effects.size());
   more.effects.push_back(&law);

@@ -86,9 +86,7 @@ struct FitProblem {
   double stiffest = kInfinity;  ///< rate beyond which a trial is refused [1/s]
 
   std::size_t free_count() const { return free.size(); }
-  const Parameter& free_parameter(std::size_t i) const {
-    return parameters[static_cast<std::size_t>(free[i])];
-  }
+  const Parameter& free_parameter(std::size_t i) const { return parameters[free[i]]; }
   /// Whether the recorded body has friction that can hold it.
   bool recorded_may_stick() const { return structure.reads_load() ? load_may_stick : motor_may_stick; }
   bool locked() const { return structure.has_load && structure.load == LoadKind::kLocked; }

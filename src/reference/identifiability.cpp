@@ -42,7 +42,7 @@ void mark_null(const FitProblem& problem, const FitPoint& at, const Eigen::Vecto
     if (std::abs(v[i]) > kShareInCombination * v.cwiseAbs().maxCoeff())
       largest = std::max(largest, std::abs(v[i]) / norm[i]);
   for (Eigen::Index i = 0; i < v.size(); ++i) {
-    const auto k = static_cast<std::size_t>(directions.seen[static_cast<std::size_t>(i)]);
+    const auto k = static_cast<std::size_t>(directions.seen[i]);
     if (std::abs(v[i]) / norm[i] < kShareInCombination * largest) continue;
     directions.in_null[k] = true;
     if (k >= problem.free_count()) continue;
@@ -62,8 +62,7 @@ Directions directions_of(const FitProblem& problem, const FitPoint& at, const In
   d.in_null.assign(static_cast<std::size_t>(n), false);
   d.inverse = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; ++k)
-    if (static_cast<std::size_t>(k) >= problem.free_count() ||
-        determined.identifiable[static_cast<std::size_t>(k)])
+    if (static_cast<std::size_t>(k) >= problem.free_count() || determined.identifiable[k])
       d.seen.push_back(k);
   const auto m = static_cast<Eigen::Index>(d.seen.size());
   if (m == 0) return d;

@@ -84,7 +84,7 @@ struct Quantiser {
                         CountPlace place) const {
     Eigen::VectorXd e(residuals.size());
     for (Eigen::Index i = 0; i < e.size(); ++i) {
-      const double x = recording.x1[static_cast<std::size_t>(i)] - residuals[i] * floor - middle;
+      const double x = recording.x1[i] - residuals[i] * floor - middle;
       const double counts = x / quantum + place.phase + place.stretch * x / travel;
       e[i] = (std::nearbyint(counts) - counts) * size;
     }

@@ -71,7 +71,7 @@ ParameterSetting& setting_of(ReferenceModel& model, ParameterId id) {
   const auto index = static_cast<std::size_t>(id.index);
   if (id.effect == ParameterId::kDrive) return model.parameters[index];
   if (id.effect == ParameterId::kController) return model.controller->numbers[index];
-  return model.effects[static_cast<std::size_t>(id.effect)].parameters[index];
+  return model.effects[id.effect].parameters[index];
 }
 
 FitPoint FitPoint::beginning_with(std::span<const double> first) const {

@@ -103,7 +103,7 @@ void look_along_stiffness(const FitProblem& problem, FreeRunMinima& polished) {
 FitProblem held_at(const FitProblem& problem, const FitPoint& at) {
   FitProblem held = problem;
   for (std::size_t i = 0; i < problem.free_count(); ++i) {
-    Parameter& p = held.parameters[static_cast<std::size_t>(problem.free[i])];
+    Parameter& p = held.parameters[problem.free[i]];
     p.start = p.coordinate.physical(at.q[i]);
     p.estimated = false;
   }

@@ -19,7 +19,7 @@ struct HeldParameter {
   int parameter;
 
   HeldParameter(const FitProblem& whole, std::size_t i) : problem(whole), parameter(whole.free[i]) {
-    problem.parameters[static_cast<std::size_t>(parameter)].estimated = false;
+    problem.parameters[parameter].estimated = false;
     problem.free.erase(problem.free.begin() + static_cast<std::ptrdiff_t>(i));
   }
 };
@@ -64,7 +64,7 @@ class ProfileWalk {
 
  private:
   double root_of_rise(double value) {
-    held_.problem.parameters[static_cast<std::size_t>(held_.parameter)].start = value;
+    held_.problem.parameters[held_.parameter].start = value;
     const Solution found = solve(held_.problem, at_, hz_, kRefit);
     simulations_ += found.simulations;
     if (!found.usable()) return kInfinity;

@@ -20,7 +20,7 @@ ParameterSetting ParameterSetting::sought(double start) {
 ControllerModel ControllerModel::known(const DriveController& controller) {
   ControllerModel model{controller, {}};
   for (int i = 0; i < kControllerNumberCount; ++i)
-    model.numbers[static_cast<std::size_t>(i)] = ParameterSetting::known(controller_number(model.fixed, i));
+    model.numbers[i] = ParameterSetting::known(controller_number(model.fixed, i));
   return model;
 }
 
@@ -31,7 +31,7 @@ bool ControllerModel::estimates() const {
 DriveController ControllerModel::at_start() const {
   DriveController c = fixed;
   for (int i = 0; i < kControllerNumberCount; ++i) {
-    const double value = numbers[static_cast<std::size_t>(i)].value;
+    const double value = numbers[i].value;
     const double otherwise = i == leading_number(c.kind) ? 1.0 : 0.0;
     controller_number(c, i) = std::isnan(value) ? otherwise : value;
   }
@@ -48,7 +48,7 @@ DriveController fitted_controller(const ControllerModel& model, const FitSummary
 }
 
 void ReferenceModel::set(std::string_view key, const ParameterSetting& setting) {
-  parameters[static_cast<std::size_t>(drive_parameter_index(key))] = setting;
+  parameters[drive_parameter_index(key)] = setting;
 }
 
 }  // namespace gapscope

@@ -46,7 +46,7 @@ std::size_t free_gap(const FitProblem& problem) {
 
 FitProblem with_closed_gap(const FitProblem& problem, std::size_t gap) {
   FitProblem closed = problem;
-  Parameter& p = closed.parameters[static_cast<std::size_t>(problem.free[gap])];
+  Parameter& p = closed.parameters[problem.free[gap]];
   p.start = 0.0, p.estimated = false;
   closed.free.erase(closed.free.begin() + static_cast<std::ptrdiff_t>(gap));
   return closed;

@@ -139,7 +139,7 @@ std::string course(const CampaignSummary& s, const SummaryTable& table, const Ca
   const auto& bins = s.axes[table.a].bins;
   const auto said = [&](const SummaryCell& c) {
     return fmt::format("{} at {} (no answer in {} of the runs)", percent((c.*(e.score)).median_error),
-                       bins[static_cast<std::size_t>(c.a)].label, percent((c.*(e.score)).refusal()));
+                       bins[c.a].label, percent((c.*(e.score)).refusal()));
   };
   return first == last ? fmt::format("{}: median error {}", e.name, said(*first))
                        : fmt::format("{}: median error {}, {}", e.name, said(*first), said(*last));

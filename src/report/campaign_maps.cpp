@@ -119,8 +119,7 @@ std::string disagreement_of(const CampaignSummary& s, const SummaryTable& table)
                        [&](const SummaryCell& x, const SummaryCell& y) { return share(x) < share(y); });
   if (most == table.cells.end() || most->disagree == 0) return "";
   return fmt::format("they disagree most at {} and {} ({} of {} runs in which both answered)",
-                     s.axes[table.a].bins[static_cast<std::size_t>(most->a)].label,
-                     s.axes[table.b].bins[static_cast<std::size_t>(most->b)].label, most->disagree,
+                     s.axes[table.a].bins[most->a].label, s.axes[table.b].bins[most->b].label, most->disagree,
                      most->both);
 }
 

@@ -87,21 +87,19 @@ std::string contest_table(const CampaignSummary& s) {
 
 /// Every setting of an axis with its n.
 std::string line_table(const CampaignSummary& s, const SummaryTable& t) {
-  const SummaryAxis& axis = s.axes[static_cast<std::size_t>(t.a)];
+  const SummaryAxis& axis = s.axes[t.a];
   std::string text = fmt::format("\n| {} | estimator |{}|{}\n", axis.name, kScoreHead,
                                  "---|---|---|---|---|---|---|---|---|---|---|");
   for (const SummaryCell& cell : t.cells)
     for (const CampaignEstimator& e : estimators_of(s))
-      text += fmt::format("| {} | {} {}\n", axis.bins[static_cast<std::size_t>(cell.a)].label, e.name,
-                          score_cells(cell.*(e.score)));
+      text += fmt::format("| {} | {} {}\n", axis.bins[cell.a].label, e.name, score_cells(cell.*(e.score)));
   return text;
 }
 
 std::string line_tables(const CampaignSummary& s) {
   std::string text;
   for (const SummaryTable& table : s.lines)
-    text += fmt::format("\n## Along the {}\n", s.axes[static_cast<std::size_t>(table.a)].name) +
-            line_table(s, table);
+    text += fmt::format("\n## Along the {}\n", s.axes[table.a].name) + line_table(s, table);
   return text;
 }
 

@@ -41,7 +41,7 @@ std::string first_line(const CampaignSummary& s, const std::vector<CampaignEstim
 std::string setting(const CampaignSummary& s, const SummaryTable& t, const SummaryCell& c) {
   const auto part = [&](int axis, int bin) {
     return fmt::format("{} {}", s.axes[static_cast<std::size_t>(axis)].name,
-                       s.axes[static_cast<std::size_t>(axis)].bins[static_cast<std::size_t>(bin)].label);
+                       s.axes[static_cast<std::size_t>(axis)].bins[bin].label);
   };
   return t.b < 0 ? part(t.a, c.a) : part(t.a, c.a) + ", " + part(t.b, c.b);
 }
@@ -75,10 +75,8 @@ std::string second_line(const CampaignSummary& s, const std::vector<CampaignEsti
           {by, fmt::format("the {} at {} ({} for {} of {})", here.in_a_sentence, setting(s, table, cell),
                            usable(cell, here), usable(cell, best), cell.runs)});
   }
-  const std::string over = table.b < 0
-                               ? s.axes[static_cast<std::size_t>(table.a)].name
-                               : fmt::format("{} and {}", s.axes[static_cast<std::size_t>(table.a)].name,
-                                             s.axes[static_cast<std::size_t>(table.b)].name);
+  const std::string over = table.b < 0 ? s.axes[table.a].name
+                                       : fmt::format("{} and {}", s.axes[table.a].name, s.axes[table.b].name);
   if (better.empty())
     return fmt::format("At none of the {} settings of {} does another one bring more runs within 5 %.",
                        table.cells.size(), over);

@@ -36,7 +36,7 @@ Series cases_where(const BlindScore& s, const std::vector<std::string>& rows, co
   for (const ScoredCase& c : s.cases) {
     const auto row = std::find(rows.begin(), rows.end(), c.truth) - rows.begin();
     if (row == std::ssize(rows) || !std::isfinite(c.implant->foretold_share)) continue;
-    const int turn = seen[static_cast<std::size_t>(row)]++ % 3 - 1;
+    const int turn = seen[row]++ % 3 - 1;
     if (!holds(c)) continue;
     series.x.push_back(100.0 * c.implant->foretold_share);
     series.y.push_back(static_cast<double>(row) + kTurnAside * turn);

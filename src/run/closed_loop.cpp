@@ -27,7 +27,7 @@ bool has_loop(const std::vector<Recording>& recordings) {
 }
 
 bool is_sought(const Configuration& c, int number) {
-  return c.controller && c.controller->numbers[static_cast<std::size_t>(number)].estimate;
+  return c.controller && c.controller->numbers[number].estimate;
 }
 
 constexpr double kWorthAnotherLaw = 0.8;  ///< of the loop's error, at most, that another law leaves

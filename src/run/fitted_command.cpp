@@ -45,7 +45,7 @@ std::string numbers_written(const ControllerModel& model) {
   DriveController controller = model.at_start();
   std::vector<std::string> numbers;
   for (int i = 0; i < kControllerNumberCount; ++i)
-    if (model.numbers[static_cast<std::size_t>(i)].estimate)
+    if (model.numbers[i].estimate)
       numbers.push_back(
           fmt::format("{} {:.4g}", kControllerNumbers[i].key, controller_number(controller, i)));
   return fmt::format("{}", fmt::join(numbers, ", "));
@@ -116,8 +116,7 @@ std::vector<MotorTrace> motor_traces(const std::vector<Recording>& recordings) {
 /// The controller with these values, to be estimated from there.
 ControllerModel starting_at(ControllerModel model, DriveController found) {
   for (int i = 0; i < kControllerNumberCount; ++i)
-    if (ParameterSetting& p = model.numbers[static_cast<std::size_t>(i)]; p.estimate)
-      p.value = controller_number(found, i);
+    if (ParameterSetting& p = model.numbers[i]; p.estimate) p.value = controller_number(found, i);
   return model;
 }
 
