@@ -54,6 +54,10 @@ std::optional<InputFacts> known_input(const Configuration& c) {
   return input.told() ? std::optional(input) : std::nullopt;
 }
 
+}  // namespace gapscope::internal::run
+
+namespace gapscope {
+
 bool is_made_by_simulate(const std::string& path) {
   constexpr std::size_t kLongest = 4096;  // of the first two lines: of another file they may be all there is
   std::string begin(kLongest, '\0');
@@ -114,5 +118,4 @@ std::vector<std::string> simulated_words(const Configuration& c, bool fitted) {
 }
 
 }  // namespace internal::run
-
-}  // namespace gapscope::internal::run
+}  // namespace gapscope
