@@ -9,8 +9,9 @@
 
 namespace gapscope {
 
-/// The steps that are longer than 1.5 usual ones. Usual is the median of all steps, or that of the twenty
-/// around where it is longer: a loop that slows down for a while has lost nothing.
+/// The steps that are longer than 1.5 usual ones, where the rows behind stay late. Usual is the mean of all
+/// steps but pauses, or that of the twenty around where it is longer: a loop that slows down for a while has
+/// lost nothing.
 /// @param t  times of rows, rising [s]
 std::vector<Loss> losses_of(std::span<const double> t);
 

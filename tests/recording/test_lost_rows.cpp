@@ -36,6 +36,20 @@ TEST(LostRows, AreNoneOnAGridOrWithJitterAlone) {
   EXPECT_EQ(lost_rows(r), 0u);
 }
 
+TEST(LostRows, AreNoneWhereAStampAloneIsLate) {
+  Recording r = rows_without({}, 1.0);
+  r.stamps[100] += 0.7e-3;
+  EXPECT_EQ(lost_rows(r), 0u);
+  for (std::size_t i = 101; i < r.stamps.size(); ++i) r.stamps[i] += 1e-3;
+  EXPECT_EQ(lost_rows(r), 1u);
+}
+
+TEST(LostRows, AreNoneWhereAClockOfWholeMillisecondsIsTooCoarse) {
+  Recording r;
+  for (int i = 0; i < 500; ++i) r.stamps.push_back(1e-3 * std::round(i / 0.7));
+  EXPECT_EQ(lost_rows(r), 0u);
+}
+
 TEST(LostRows, AreNoneWhereALoopSlowsDownForAWhile) {
   Recording r;
   for (int i = 0; i < 200; ++i) {
