@@ -75,7 +75,7 @@ namespace {
 
 struct BestFit {
   double share_left = kNaN;
-  Eigen::VectorXd fitted;  ///< of each window
+  Eigen::VectorXd fitted, factors;  ///< of each window; of each column over its norm
 };
 
 BestFit best_fit(const std::vector<std::vector<double>>& columns, const std::vector<double>& u) {
@@ -90,8 +90,8 @@ BestFit best_fit(const std::vector<std::vector<double>>& columns, const std::vec
   }
   const Eigen::Map<const Eigen::VectorXd> y(u.data(), rows);
   const double all = (y.array() - y.mean()).square().sum();
-  const Eigen::VectorXd fitted = a * a.colPivHouseholderQr().solve(y);
-  return {all > 0.0 ? (y - fitted).squaredNorm() / all : kNaN, fitted};
+  const Eigen::VectorXd factors = a.colPivHouseholderQr().solve(y), fitted = a * factors;
+  return {all > 0.0 ? (y - fitted).squaredNorm() / all : kNaN, fitted, factors};
 }
 
 /// u with its sign turned after each time that it falls near 0 and rises again; nothing for fewer than three.
@@ -126,7 +126,18 @@ double Balance::left(std::span<const double> u, int rows) const {
 }
 
 double Balance::left_of_speed(std::span<const double> u) const {
-  return best_fit(of_speed_, bumped(u, 0)).share_left;
+  constexpr std::size_t kPassive = 3;  // inertia, damping and friction are above 0 where a body has them
+  const std::vector<double> bumps = bumped(u, 0);
+  std::vector<std::vector<double>> columns = of_speed_;
+  for (;;) {
+    const BestFit fit = best_fit(columns, bumps);
+    bool passive = true;
+    for (std::size_t j = 0; j < kPassive && fit.factors.size() > 0; ++j) {
+      if (!(fit.factors(static_cast<Eigen::Index>(j)) < 0.0)) continue;
+      columns[j].assign(columns[j].size(), 0.0), passive = false;
+    }
+    if (passive) return fit.share_left;
+  }
 }
 
 double Balance::left_with_signs(std::span<const double> u) const {

@@ -27,7 +27,8 @@ class Balance {
   /// The same where u has lost its sign and each window takes the one that fits.
   double left_with_signs(std::span<const double> size) const;
 
-  /// The same where x1 is taken for a speed: M ẋ1 + D x1 + F sign(x1) + C.
+  /// The same where x1 is taken for a speed: M ẋ1 + D x1 + F sign(x1) + C, with M, D and F of 0 or more: a
+  /// sine of a position goes with its second difference as that of a speed would with a damping below 0.
   double left_of_speed(std::span<const double> u) const;
 
  private:

@@ -124,6 +124,16 @@ TEST(SeemingInput, ASpeedInPlaceOfAPositionIsTold) {
   EXPECT_THAT(finding(i, "unit of x1").advice, HasSubstr("--speed"));
 }
 
+/// The second difference of a sine is the sine itself, as is the torque of a damping below 0.
+TEST(SeemingInput, APositionUnderASineIsNoSpeed) {
+  TestDrive drive;
+  drive.m2 = 4.0 * drive.m1, drive.Fc1 = 0.005, drive.Fc2 = 0.02, drive.d1 = 0.005, drive.d2 = 0.003,
+  drive.gap = 0.003;
+  const Rows rows = changed(rig(sine(0.3, 1.33), drive, 0), [](Rows& r) { r.erase(0, 2000); });
+  const Inspection i = inspected(rows);
+  EXPECT_EQ(finding(i, "unit of x1").severity, Severity::kFine) << i.report();
+}
+
 TEST(SeemingInput, AConstantLoadIsNoted) {
   const Inspection i = inspected(changed([](Rows& r) {
     for (double& u : r.u) u += 1.0;
