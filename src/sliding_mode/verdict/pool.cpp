@@ -199,7 +199,7 @@ Pool pool_of(std::span<const ImpactAnalysis> analyses, std::span<const double> i
 GapEvidence gap_evidence(const Pool& pool) {
   GapEvidence e;
   e.quantum = pool.quantum;
-  e.smallest_visible_gap = std::isfinite(pool.visible) ? pool.visible : kNaN;
+  e.smallest_visible_gap = pool.half_periods > 0.0 && std::isfinite(pool.visible) ? pool.visible : kNaN;
   e.events = pool.events;
   const Middle m = middle_of(pool.accepted);
   e.against = pool.half_periods > 0.0 ? objection(pool, m)
