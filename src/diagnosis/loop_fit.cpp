@@ -302,6 +302,7 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
   }
   fit.left_by_law = builder.left_by_law(loop, parts);
   for (const id::LoopPart& part : parts) fit.added.push_back(part.key);
+  id::free_timing(loop, controller, recordings.front().dt);
   const std::vector<id::LoopPlace> free = id::places_of(loop, controller, options);
   fit.mae_after = search.refine(loop, free, id::kLastSteps);
   const Eigen::VectorXd spread = search.spread(loop, free);

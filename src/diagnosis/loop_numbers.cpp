@@ -216,6 +216,12 @@ LoopNumber LoopPlace::told(const Loop& loop, double spread) const {
   return {std::string(entry.name) + "." + spec.key, spec.unit, v, ci95};
 }
 
+void free_timing(Loop& loop, const DriveController& declared, double dt) {
+  const double half = 0.5 * (loop.controller.rate > 0.0 ? 1.0 / loop.controller.rate : dt);
+  for (const LawNumber* number : {&kDelay, &kGoalDelay})
+    if (!number->is_in(loop.controller) && !number->is_in(declared)) loop.controller.*number->member = half;
+}
+
 std::vector<LoopPlace> places_of(const Loop& loop, const DriveController& declared,
                                  const LoopFitOptions& options) {
   std::vector<LoopPlace> places;

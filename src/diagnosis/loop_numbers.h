@@ -69,6 +69,11 @@ class LoopPlace {
 std::vector<LoopPlace> places_of(const Loop& loop, const DriveController& declared,
                                  const LoopFitOptions& options);
 
+/// Delays of goal and output that are too small to be worth adding are not nothing: what stands for them in
+/// the drive's numbers would be no more the drive's. They begin at half a turn of the firmware.
+/// @param dt  of the rows [s]
+void free_timing(Loop& loop, const DriveController& declared, double dt);
+
 /// Something that a loop has.
 struct LoopPart {
   std::string key;
