@@ -46,8 +46,8 @@ const LawNumber* const kLaw[] = {
     &kFallsSharpness, &kOffDamping, &kProfileSpeed, &kProfileAcceleration, &kGoalFilter};
 
 bool has(const ReferenceModel& model, const char* name) {
-  return std::any_of(model.effects.begin(), model.effects.end(),
-                     [&](const ModelEffect& e) { return e.entry == find_effect(name); });
+  return std::ranges::any_of(model.effects,
+                             [&](const ModelEffect& e) { return e.entry == find_effect(name); });
 }
 
 /// Its first number, 0 where the loop has none of it.
@@ -121,11 +121,6 @@ void more_torque(double times, Loop& loop) {
 /// Of an error, where the gain falls.
 double share_left(const DriveController& c, double error) {
   return std::pow(1.0 + std::pow(error / c.falls_at, c.falls_sharpness), -1.0 / c.falls_sharpness);
-}
-
-bool is_ever_off(std::span<const MotorTrace> recordings) {
-  return std::any_of(recordings.begin(), recordings.end(),
-                     [](const MotorTrace& t) { return t.command->off_from < kInfinity; });
 }
 
 /// Whether a number stays at zero or above.
@@ -273,7 +268,8 @@ void add_laws(const Loop& loop, std::span<const MotorTrace> recordings,
   const double speed = usual_top_speed(recordings), dt = recordings.front().dt;
   const double damping = loop.model.parameters[place::kMotorDamping].value;
   const auto lacks = [&](const LawNumber& n) { return !n.is_in(loop.controller); };
-  if (lacks(kOffDamping) && is_ever_off(recordings)) {
+  const auto is_off = [](const MotorTrace& t) { return t.command->off_from < kInfinity; };
+  if (lacks(kOffDamping) && std::ranges::any_of(recordings, is_off)) {
     additions.push_back(of_law(kOffDamping, {0.02 * damping, 0.3 * damping}));
     additions.back().parts.front().of_law = false;
   }
@@ -338,13 +334,11 @@ void add_effects(const Loop& loop, std::span<const MotorTrace> recordings,
       l.model.effects.push_back(effect_with("motor_coulomb_friction", {ParameterSetting::sought(level)}));
     };
   }
-  const bool loads = std::any_of(recordings.begin(), recordings.end(),
-                                 [](const MotorTrace& t) { return !t.load.is_none(); });
+  const bool loads = std::ranges::any_of(recordings, [](const MotorTrace& t) { return !t.load.is_none(); });
   if (loads && has(loop.model, "load_unbalance")) {
     additions.push_back(of_drive("load_unbalance", {0.1}, [](Loop& l, double start) {
-      const auto first =
-          std::find_if(l.model.effects.begin(), l.model.effects.end(),
-                       [](const ModelEffect& e) { return e.entry == find_effect("load_unbalance"); });
+      const auto first = std::ranges::find_if(
+          l.model.effects, [](const ModelEffect& e) { return e.entry == find_effect("load_unbalance"); });
       const auto at = [&](std::size_t i) { return ParameterSetting::known(first->parameters[i].value); };
       l.model.effects.push_back(effect_with(
           "load_unbalance", {ParameterSetting::sought(start * first->parameters[0].value), at(1), at(2)}));
