@@ -2,166 +2,37 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "base/interrupt.h"
-#include "base/parallel.h"
 #include "base/require.h"
 #include "diagnosis/few_recordings.h"
+#include "diagnosis/loop_additions.h"
 #include "diagnosis/loop_numbers.h"
-#include "gapscope/simulation/closed_loop.h"
+#include "diagnosis/loop_search.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
 namespace {
 
 constexpr double kWorthHaving = 0.02;  ///< of the error, that an addition takes
-constexpr double kSmallError = 2e-3;   ///< below which an error weighs as a square [rad]
-constexpr double kLost = 10.0;         ///< error of a motion that diverges [rad]
-constexpr double kSettled = 2e-3;      ///< of the error, below which a step is the last
 constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 20;
 constexpr int kRounds = 2;  ///< a limit that was not reached is looked for once more when all else is there
 constexpr std::size_t kTriedOn = 4;      ///< beginnings of additions that come nearest after one step
-constexpr double kAlike = 1.0;           ///< time within which what is left is taken as alike [s]
-constexpr int kTrials = 6;               ///< of a step that does not lessen the error
 constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop [Hz]
-constexpr std::size_t kFirstRows = 5;    ///< over which the first speed is read
+/// Rates of a firmware's own loop that are tried: whole parts of 2 kHz [Hz]. Turns of another rate slip past
+/// the rows within a recording and leave as much as no phase at all.
+constexpr double kRates[] = {2000.0, kBetweenRows, 500.0, 400.0, 1000.0 / 3.0, 250.0, 200.0};
+constexpr int kTurnRounds = 3;         ///< phases and numbers in turn, as each waits for the other
+constexpr int kTurnSteps = 2;          ///< of the numbers' fit in each
+constexpr std::size_t kLastRates = 2;  ///< that get as many rounds again
+constexpr double kSlips = 0.25;  ///< of a turn, by which a rate that is off slips in a recording at least
 
-/// The speed with which a recording begins: none, where it moves by no more than the encoder's steps.
-DriveState<double> begin_of(const MotorTrace& trace) {
-  const std::size_t last = std::min(kFirstRows, trace.size() - 1);
-  const double way = trace.x1[last] - trace.x1[0];
-  const double w = std::abs(way) > 3.0 * trace.quantum ? way / trace.elapsed(last) : 0.0;
-  return {trace.x1[0], w, trace.x1[0], w};
+double longest(std::span<const MotorTrace> recordings) {
+  double seconds = 0.0;
+  for (const MotorTrace& t : recordings) seconds = std::max(seconds, t.elapsed(t.size() - 1));
+  return seconds;
 }
-
-double mean_error(const MotorTrace& trace, const std::vector<double>& x) {
-  if (x.empty()) return kLost;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += std::abs(trace.x1[i] - x[i]);
-  return sum / static_cast<double>(x.size());
-}
-
-class LoopSearch {
- public:
-  LoopSearch(std::span<const MotorTrace> traces, int threads) : traces_(traces), threads_(threads) {}
-
-  double error(const Loop& loop) const {
-    std::vector<double> of(traces_.size());
-    parallel_for(traces_.size(), threads_,
-                 [&](std::size_t r) { of[r] = mean_error(traces_[r], positions(loop, r)); });
-    double sum = 0.0;
-    for (const double e : of) sum += e;
-    return sum / static_cast<double>(of.size());
-  }
-
-  /// Down to where no step lessens the error by much. @returns the error there
-  double refine(Loop& loop, const std::vector<LoopPlace>& free, int steps) const {
-    double least = error(loop);
-    double damping = 1e-2;
-    for (int step = 0; step < steps && !free.empty() && least < kLost; ++step) {
-      stop_point();
-      const Normal normal = normal_at(loop, free);
-      const double before = least;
-      for (int trial = 0; trial < kTrials; ++trial, damping *= 5.0) {
-        Eigen::MatrixXd damped = normal.square;
-        damped.diagonal() *= 1.0 + damping;
-        damped.diagonal().array() += 1e-12 * normal.square.diagonal().maxCoeff() + 1e-300;
-        const Eigen::VectorXd move = damped.ldlt().solve(normal.slope);
-        Loop next = loop;
-        for (std::size_t k = 0; k < free.size(); ++k)
-          free[k].move(next, std::clamp(move(static_cast<Eigen::Index>(k)), -1.0, 1.0));
-        if (const double at = error(next); at < least) {
-          loop = next, least = at, damping = std::max(1e-6, damping / 25.0);
-          break;
-        }
-      }
-      if (least > (1.0 - kSettled) * before) break;
-    }
-    return least;
-  }
-
-  /// Half of each number's interval, in units of its move.
-  Eigen::VectorXd spread(const Loop& loop, const std::vector<LoopPlace>& free) const {
-    const Normal normal = normal_at(loop, free);
-    const auto n = normal.slope.size(), stretches = normal.slopes.cols();
-    if (stretches <= n) return Eigen::VectorXd::Constant(n, kInfinity);
-    const auto inverse = normal.square.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::MatrixXd moves = inverse * normal.slopes;
-    const double freedom = static_cast<double>(stretches - n);
-    const double few = static_cast<double>(stretches) / freedom;
-    Eigen::ArrayXd half = student_975(freedom) * (few * moves.rowwise().squaredNorm().array()).sqrt();
-    for (Eigen::Index k = 0; k < n; ++k)
-      half(k) += free[static_cast<std::size_t>(k)].unseen(loop, turn(loop));
-    return (normal.square.diagonal().array() > 0.0).select(half, kInfinity);  // what nothing depends on
-  }
-
- private:
-  struct Normal {
-    Eigen::MatrixXd square;
-    Eigen::VectorXd slope;
-    Eigen::MatrixXd slopes;  ///< the same of each stretch, [numbers × stretches]
-  };
-
-  /// Of the firmware [s].
-  double turn(const Loop& loop) const {
-    return loop.controller.rate > 0.0 ? 1.0 / loop.controller.rate : traces_.front().dt;
-  }
-
-  std::vector<double> positions(const Loop& loop, std::size_t r) const {
-    return positions_under_controller(plant_of(loop.model), loop.controller, traces_[r],
-                                      begin_of(traces_[r]));
-  }
-
-  Normal normal_at(const Loop& loop, const std::vector<LoopPlace>& free) const {
-    const std::size_t n = free.size();
-    std::vector<Loop> moved(n, loop);
-    std::vector<double> by(n);
-    for (std::size_t k = 0; k < n; ++k) free[k].move(moved[k], by[k] = free[k].trial(loop, turn(loop)));
-    std::vector<Normal> of(traces_.size());
-    parallel_for(traces_.size(), threads_, [&](std::size_t r) { of[r] = normal_of(loop, moved, by, r); });
-    Normal sum = of.front();
-    for (std::size_t r = 1; r < of.size(); ++r) {
-      sum.square += of[r].square, sum.slope += of[r].slope;
-      const Eigen::Index had = sum.slopes.cols();
-      sum.slopes.conservativeResize(Eigen::NoChange, had + of[r].slopes.cols());
-      sum.slopes.rightCols(of[r].slopes.cols()) = of[r].slopes;
-    }
-    return sum;
-  }
-
-  Normal normal_of(const Loop& loop, const std::vector<Loop>& moved, const std::vector<double>& by,
-                   std::size_t r) const {
-    const MotorTrace& trace = traces_[r];
-    const auto rows = static_cast<Eigen::Index>(trace.size()), n = static_cast<Eigen::Index>(moved.size());
-    const auto stretches = std::max<Eigen::Index>(1, std::llround(trace.elapsed(trace.size() - 1) / kAlike));
-    Normal normal{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, stretches)};
-    const std::vector<double> x = positions(loop, r);
-    if (x.empty()) return normal;
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const std::vector<double> then = positions(moved[static_cast<std::size_t>(k)], r);
-      for (Eigen::Index i = 0; i < rows && !then.empty(); ++i)
-        slopes(i, k) = (then[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i)]) /
-                       by[static_cast<std::size_t>(k)];
-    }
-    Eigen::VectorXd left(rows), weight(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      left(i) = trace.x1[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(i)];
-      weight(i) = 1.0 / (std::max(std::abs(left(i)), kSmallError) * static_cast<double>(rows));
-    }
-    normal.square = slopes.transpose() * weight.asDiagonal() * slopes;
-    for (Eigen::Index i = 0; i < rows; ++i)
-      normal.slopes.col(i * stretches / rows) += weight(i) * left(i) * slopes.row(i).transpose();
-    normal.slope = normal.slopes.rowwise().sum();
-    return normal;
-  }
-
-  std::span<const MotorTrace> traces_;
-  int threads_;
-};
 
 /// What the recordings ask for, one after the other.
 class LoopBuilder {
@@ -232,6 +103,34 @@ class LoopBuilder {
     }
   }
 
+  /// The rate of the firmware's own turns: goals take effect at turns alone, which shows in a recording that
+  /// has one phase from its first row to its last.
+  /// @returns whether the recordings tell it from the others that are tried
+  bool settle_turns(Loop& loop) const {
+    if (!options_.rate_is_sought || loop.controller.rate == 0.0) return false;
+    struct Turns {
+      Loop loop;
+      LoopSearch search;
+      double error = kLost;
+    };
+    options_.progress("looking for the turns of the firmware");
+    std::vector<Turns> tried;
+    for (const double rate : kRates)
+      tried.push_back({loop, search_}), tried.back().loop.controller.rate = rate;
+    const std::vector<LoopPlace> free = places_of(loop, declared_, options_);
+    const auto nearer = [](const Turns& a, const Turns& b) { return a.error < b.error; };
+    for (const std::size_t still : {tried.size(), kLastRates}) {
+      for (std::size_t k = 0; k < still; ++k)
+        for (int round = 0; round < kTurnRounds; ++round) {
+          tried[k].search.find_phases(tried[k].loop);
+          tried[k].error = tried[k].search.refine(tried[k].loop, free, kTurnSteps);
+        }
+      std::ranges::stable_sort(tried, nearer);
+    }
+    loop = tried[0].loop;
+    return tried[0].error < (1.0 - kWorthHaving) * tried[1].error;
+  }
+
   /// Share of the error that its law leaves, over the law that was declared.
   double left_by_law(const Loop& loop, const std::vector<LoopPart>& parts) const {
     Loop declared = loop;
@@ -284,7 +183,7 @@ namespace id = internal::diagnosis;
 std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                                    const DriveController& controller, const LoopFitOptions& options) {
   GAPSCOPE_REQUIRE(!recordings.empty());
-  const id::LoopSearch search(recordings, options.threads);
+  id::LoopSearch search(recordings, options.threads);
   id::Loop loop{id::bounded(model), controller};
   LoopFit fit;
   fit.mae_before = search.error(loop);
@@ -303,7 +202,13 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
   fit.left_by_law = builder.left_by_law(loop, parts);
   for (const id::LoopPart& part : parts) fit.added.push_back(part.key);
   id::free_timing(loop, controller, recordings.front().dt);
+  if (builder.settle_turns(loop)) {
+    const double rate = loop.controller.rate, slip = id::kSlips / id::longest(recordings);
+    fit.added.push_back("controller.rate");
+    fit.numbers.push_back({fit.added.back(), "Hz", rate, {rate - slip, rate + slip}});
+  }
   const std::vector<id::LoopPlace> free = id::places_of(loop, controller, options);
+  search.find_phases(loop);
   fit.mae_after = search.refine(loop, free, id::kLastSteps);
   const Eigen::VectorXd spread = search.spread(loop, free);
   for (std::size_t k = 0; k < free.size(); ++k)
@@ -321,8 +226,8 @@ HeldOutRun run_in_loop(const MotorTrace& recording, const ReferenceModel& model,
   HeldOutRun run;
   run.file = recording.file, run.closed = true;
   run.from = recording.time(0), run.to = recording.time(recording.size() - 1);
-  const std::vector<double> x =
-      positions_under_controller(id::plant_of(model), controller, recording, id::begin_of(recording));
+  const id::Loop loop{model, controller};
+  const std::vector<double> x = id::positions_at(id::phase_of(loop, recording), loop, recording);
   if (x.empty()) return run;
   const double centre = mean(recording.x1);
   double square = 0.0, moved = 0.0;

@@ -1,10 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "gapscope/diagnosis/loop_fit.h"
@@ -34,6 +30,34 @@ struct LawNumber {
   bool is_in(const DriveController& c) const {
     return std::isnan(absent) ? !std::isnan(c.*member) : c.*member != absent;
   }
+};
+
+/// Those that there are.
+struct LawNumbers {
+  static constexpr LawNumber gain = {
+      &DriveController::gain, "controller.position.gain", "unit of u/rad", kNaN, 1e-9, 1e9};
+  static constexpr LawNumber delay = {
+      &DriveController::delay, "controller.position.delay", "s", 0.0, 1e-5, 0.3};
+  static constexpr LawNumber goal_delay = {
+      &DriveController::goal_delay, "controller.goal_delay_s", "s", 0.0, 1e-4, 0.5};
+  static constexpr LawNumber goal_filter = {
+      &DriveController::goal_filter, "controller.goal_filter_s", "s", 0.0, 1e-4, 5.0};
+  static constexpr LawNumber profile_speed = {
+      &DriveController::profile_speed, "controller.profile.speed", "rad/s", kInfinity, 1e-3, 1e4};
+  static constexpr LawNumber profile_acceleration = {&DriveController::profile_acceleration,
+                                                     "controller.profile.acceleration",
+                                                     "rad/s^2",
+                                                     kInfinity,
+                                                     1e-2,
+                                                     1e6};
+  static constexpr LawNumber saturation = {
+      &DriveController::saturation, "controller.position.saturation", "unit of u", kInfinity, 1e-6, 1e9};
+  static constexpr LawNumber falls_at = {
+      &DriveController::falls_at, "controller.position.falls_at", "rad", kInfinity, 1e-4, 100.0};
+  static constexpr LawNumber off_damping = {
+      &DriveController::off_damping, "controller.off_damping", "N m s/rad", kNaN, 1e-9, 1e9};
+  static constexpr LawNumber falls_sharpness = {
+      &DriveController::falls_sharpness, "controller.position.falls_sharpness", "", 2.0, 0.5, 20.0};
 };
 
 /// A number of a loop that is fitted. One that cannot be below zero moves in proportion to itself.
@@ -74,27 +98,9 @@ std::vector<LoopPlace> places_of(const Loop& loop, const DriveController& declar
 /// @param dt  of the rows [s]
 void free_timing(Loop& loop, const DriveController& declared, double dt);
 
-/// Something that a loop has.
-struct LoopPart {
-  std::string key;
-  std::function<void(Loop& loop)> take_out;
-  bool of_law = false;   ///< of the controller itself, not of the drive
-  bool is_late = false;  ///< makes the loop act later, as others do
-};
-
-/// Something that a loop may lack, and the sizes at which it is begun with.
-struct LoopAddition {
-  std::vector<double> starts;
-  std::function<void(Loop& loop, double start)> put;
-  std::vector<LoopPart> parts;
-};
-
-/// Those that the loop does not have.
-std::vector<LoopAddition> additions_to(const Loop& loop, std::span<const MotorTrace> recordings);
-
-/// The loop with the torque constant with which its controller holds what hangs on the drive where it stands,
-/// and a drive as quick as the motion: what no law of the goal has spoiled. Nothing without such rests, or
-/// where the constant is known.
-std::optional<Loop> held_at_rest(const Loop& loop, std::span<const MotorTrace> recordings);
+/// The loop with a firmware of another rate, goal and output on average as late as they are where the delays
+/// have room for it.
+/// @param rate  above 0, as that of the loop [Hz]
+Loop at_rate(double rate, Loop loop);
 
 }  // namespace gapscope::internal::diagnosis

@@ -213,7 +213,7 @@ void tell_models(const Study& study, const FirstSearch& found, const ScoredModel
   d.observer_hz = study.observer_hz;
   if (added) d.blame = blame_of(nominal, after);
   d.ranking = ranking_of(study, found.before, found.candidates, found.decision);
-  d.fitted = after.fitted.model;
+  d.nominal = nominal.fitted.model, d.fitted = after.fitted.model;
   const double km = d.fitted.parameters[place::kTorqueConstant].value;
   const auto before_played = play(nominal.fitted.model, study.held_out, study.observer_hz, true);
   const auto after_played = added ? play(d.fitted, study.held_out, study.observer_hz, true) : before_played;

@@ -96,12 +96,14 @@ std::string closed_loop_table(const DiagnosisResult& r) {
   if (!r.diagnosis.closed_loop) return "";
   const ClosedLoop& c = *r.diagnosis.closed_loop;
   const std::string unit = r.coordinates.position_unit();
+  const bool more = added(r) || r.diagnosis.loop;
   std::string text = fmt::format(
       "\n## The drive under its controller\n\nThe command goes in, the position comes out; each held-out "
       "recording all the way, rms of the position error.\n\n| recording | nominal model |{}\n|---|---|{}\n",
-      added(r) ? " with all that was added |" : "", added(r) ? "---|" : "");
+      more ? " as recommended |" : "", more ? "---|" : "");
   const auto row = [&](const std::string& name, double before, double after) {
-    text += fmt::format("| {} | {} |{}\n", name, quantity(before, unit), after_cell(r, after, before, unit));
+    text += fmt::format("| {} | {} |{}\n", name, quantity(before, unit),
+                        more ? " " + quantity_beside(after, before, unit) + " |" : "");
   };
   for (const ClosedLoopRun& run : c.recordings) row(run.file, run.before, run.after);
   if (c.recordings.size() > 1) row("all", c.before, c.after);

@@ -54,11 +54,10 @@ std::optional<ReferenceModel> quick_fit(const Configuration& c, const std::vecto
   return with_fitted_numbers(model, found);
 }
 
-double fit_percent_of(double rmse, const MotorTrace& t) {
-  const double centre = mean(t.x1);
-  double moved = 0.0;
-  for (const double x : t.x1) moved += (x - centre) * (x - centre);
-  return moved > 0.0 ? 100.0 * (1.0 - rmse / std::sqrt(moved / static_cast<double>(t.size()))) : kNaN;
+double rms_of(const std::vector<HeldOutRun>& runs) {
+  double square = 0.0;
+  for (const HeldOutRun& run : runs) square += run.rmse * run.rmse;
+  return std::sqrt(square / static_cast<double>(runs.size()));
 }
 
 }  // namespace
@@ -109,19 +108,28 @@ bool has_another_law(const LoopFit& loop) { return loop.left_by_law < kWorthAnot
 void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
                       Diagnosis& d) {
   if (!loop || !d.controller) return;
-  double sum = 0.0;
-  const std::vector<MotorTrace> train = traces_of(recordings.train.recordings);
-  for (const MotorTrace& trace : train) sum += run_in_loop(trace, d.fitted, *d.controller).mae;
-  const bool is_nearer = !(sum <= loop->mae_after * static_cast<double>(train.size()));
-  if (is_nearer) d.loop = loop;
-  d.held_out_runs.clear();
-  for (const MotorTrace& trace : traces_of(recordings.held_out.recordings)) {
-    d.held_out_runs.push_back(is_nearer ? run_in_loop(trace, loop->model, loop->controller)
-                                        : run_in_loop(trace, d.fitted, *d.controller));
-    if (!d.closed_loop) continue;
-    for (const ClosedLoopRun& run : d.closed_loop->recordings)
-      if (run.file == trace.file) d.held_out_runs.back().nominal_fit = fit_percent_of(run.before, trace);
+  const std::vector<MotorTrace> traces = traces_of(recordings.held_out.recordings);
+  const auto runs = [&](const ReferenceModel& model, const DriveController& controller) {
+    std::vector<HeldOutRun> told;
+    for (const MotorTrace& trace : traces) told.push_back(run_in_loop(trace, model, controller));
+    return told;
+  };
+  const auto error = [](const std::vector<HeldOutRun>& of) {
+    double sum = 0.0;
+    for (const HeldOutRun& run : of) sum += std::isfinite(run.mae) ? run.mae : kInfinity;
+    return sum;
+  };
+  const std::vector<HeldOutRun> before = runs(d.nominal, *d.controller);
+  std::vector<HeldOutRun> after = runs(d.fitted, *d.controller),
+                          in_loop = runs(loop->model, loop->controller);
+  if (!(error(after) <= error(in_loop))) d.loop = loop, after = std::move(in_loop);
+  d.closed_loop.emplace();
+  for (std::size_t r = 0; r < after.size(); ++r) {
+    after[r].nominal_fit = before[r].fit;
+    d.closed_loop->recordings.push_back({after[r].file, before[r].rmse, after[r].rmse});
   }
+  d.closed_loop->before = rms_of(before), d.closed_loop->after = rms_of(after);
+  d.held_out_runs = std::move(after);
 }
 
 }  // namespace gapscope::internal::run

@@ -22,8 +22,8 @@ std::optional<LoopFit> fitted_loop(const Configuration& configuration, const Dia
 /// makes of the targets is another input.
 bool has_another_law(const LoopFit& loop);
 
-/// Gives the diagnosis the held-out recordings beside the drive in its loop, or, where the model that the
-/// diagnosis has come to follows the fitted ones as well, beside that.
+/// Gives the diagnosis the whole held-out recordings beside the drive in its loop: beside the loop's own fit
+/// where that follows them nearer than the model that the diagnosis has come to, else beside this.
 void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
                       Diagnosis& diagnosis);
 

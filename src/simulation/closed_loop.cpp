@@ -42,11 +42,13 @@ PlantModel<double> let_go(PlantModel<double> model, double damping) {
 /// A drive and its controller, from one event to the next.
 class DriveInLoop {
  public:
+  /// @param phase  of a turn, at which the first update comes
   DriveInLoop(const PlantModel<double>& model, const DriveController& controller,
-              const SimulationOptions& options)
+              const SimulationOptions& options, double phase = 0.0)
       : model_(model),
         dt_(1.0 / options.rate),
         controller_(controller),
+        phase_(phase),
         law_(controller_),
         stepper_(model, dt_, kOneInstant),
         encoder_(options.encoder),
@@ -102,7 +104,7 @@ class DriveInLoop {
     double from, u;
   };
 
-  double next_update() const { return static_cast<double>(updates_) / controller_.rate; }
+  double next_update() const { return (static_cast<double>(updates_) + phase_) / controller_.rate; }
   double next_event() const {
     const double change = coming_.empty() ? kInfinity : coming_.front().from;
     return controller_.rate > 0.0 ? std::min(change, next_update()) : change;
@@ -133,6 +135,7 @@ class DriveInLoop {
   double dt_;
   bool off_ = false;
   DriveController controller_;
+  double phase_;
   ControllerLaw<double> law_;
   DriveStepper<double> stepper_;
   Encoder encoder_;
@@ -175,7 +178,7 @@ Recording simulate_under_controller(const PlantModel<double>& model, const Drive
 
 std::vector<double> positions_under_controller(const PlantModel<double>& model,
                                                const DriveController& declared, const MotorTrace& recording,
-                                               const DriveState<double>& start) try {
+                                               const DriveState<double>& start, double phase) try {
   GAPSCOPE_REQUIRE(recording.command != nullptr);
   const CommandRows& rows = *recording.command;
   const DriveController controller = controller_during(rows, declared);
@@ -183,7 +186,7 @@ std::vector<double> positions_under_controller(const PlantModel<double>& model,
   options.rate = 1.0 / recording.dt, options.initial = start, options.encoder = {};
   PlantModel<double> then = model;
   add_load(then, recording.load.inertia, recording.load.gravity);
-  DriveInLoop loop(then, controller, options);
+  DriveInLoop loop(then, controller, options, phase);
   const std::size_t first = recording.command_first;
   loop.begin_with(commanded_input(declared, rows, first, 1).front() / rows.supply[first]);
   std::vector<double> positions;

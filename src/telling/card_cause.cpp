@@ -215,8 +215,9 @@ Told unknown(const CardFacts& f) {
 
 /// The law of the firmware beyond what was declared of it, where the loop as a whole shows it.
 Told firmware(const Diagnosis& d) {
-  if (!leads_in_loop(d)) return {};
+  if (!d.loop) return {};
   static const std::pair<const char*, const char*> told_as[] = {
+      {"controller.rate", "firmware.rate"},
       {"controller.profile.speed", "firmware.speed"},
       {"controller.profile.acceleration", "firmware.acceleration"},
       {"controller.goal_filter_s", "firmware.filter"},
@@ -232,6 +233,23 @@ Told firmware(const Diagnosis& d) {
   return told;
 }
 
+/// What the loop's fit has added to the drive, beside what the torque says.
+Told drive_in_loop(const CardFacts& f) {
+  const Diagnosis& d = *f.diagnosis;
+  if (!d.loop) return {};
+  std::vector<ToldName> told;
+  for (const std::string& name : d.loop->added) {
+    if (find_effect(name) == nullptr || std::ranges::count(d.added, name, &AddedEffect::effect) > 0) continue;
+    AddedEffect in_loop;
+    in_loop.effect = name;
+    for (const LoopNumber& n : d.loop->numbers)
+      if (n.key.starts_with(name + "."))
+        in_loop.parameters.push_back({n.key.substr(name.size() + 1), n.unit, n.value, n.ci95});
+    told.push_back(with_amount(in_loop, d, f.coordinates, ""));
+  }
+  return told.empty() ? Told() : Told{{"cause.loop.drive", {names("effects", std::move(told))}}};
+}
+
 /// Whether the cause, where none is established, is more likely outside of the catalogue; probabilities were
 /// learned where the candidates' own refits decide, above the encoder's floor.
 bool is_likely_outside(const Diagnosis& d) {
@@ -245,6 +263,8 @@ bool is_likely_outside(const Diagnosis& d) {
 Told cause_of(const CardFacts& f) {
   if (f.diagnosis == nullptr) return {{"by_diagnose"}};
   const Diagnosis& d = *f.diagnosis;
+  Told in_loop = firmware(d);
+  for (Statement& s : drive_in_loop(f)) in_loop.push_back(std::move(s));
   Told told;
   if (d.verdict == DiagnosisVerdict::kNone) {
     told = {{changed_numbers(d, f.coordinates).empty() ? "cause.none" : "cause.numbers"}};
@@ -253,12 +273,15 @@ Told cause_of(const CardFacts& f) {
     Told open = open_causes(f);
     told = causes;
     told.insert(rests_on_open_cause(d) ? told.begin() : told.end(), open.begin(), open.end());
-    if (told.empty()) told = d.stopped ? Told{{"cause.stopped"}} : unknown(f);
-    if (causes.empty() && !has_code(told, "cause.stopped") && is_likely_outside(d))
+    if (told.empty() && !in_loop.empty())
+      told = {{"cause.loop"}};
+    else if (told.empty())
+      told = d.stopped ? Told{{"cause.stopped"}} : unknown(f);
+    if (causes.empty() && in_loop.empty() && !has_code(told, "cause.stopped") && is_likely_outside(d))
       told.push_back({"cause.outside", {per_cent("p", 100.0 * d.outside_probability)}});
     if (ended_early(d)) told.push_back({"cause.exhausted"});
   }
-  for (const Told& more : {firmware(d), simulator_of(f)}) told.insert(told.end(), more.begin(), more.end());
+  for (const Told& more : {in_loop, simulator_of(f)}) told.insert(told.end(), more.begin(), more.end());
   return told;
 }
 

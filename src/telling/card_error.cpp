@@ -103,13 +103,13 @@ Told closed_loop(const Diagnosis& d, Coordinates coordinates) {
   const double travel = d.whole_run ? d.whole_run->travel : kNaN;
   return {{std::isfinite(c.before) ? "error.closed_loop" : "error.closed_loop.diverges",
            {number("before", c.before, "rad"),
-            number("after", d.added.empty() || leads_in_loop(d) ? kNaN : c.after, "rad"),
+            number("after", d.added.empty() && !d.loop ? kNaN : c.after, "rad"),
             travel_word(travel, coordinates)}}};
 }
 
 /// Of the model that is fitted in the loop, over what was held out.
 Told fitted_loop(const Diagnosis& d) {
-  if (!leads_in_loop(d)) return {};
+  if (!d.loop) return {};
   double sum = 0.0;
   const HeldOutRun* worst = &d.held_out_runs.front();
   for (const HeldOutRun& run : d.held_out_runs) {
@@ -158,14 +158,6 @@ Told as_configured(const Diagnosis& d) {
 }
 
 }  // namespace
-
-bool leads_in_loop(const Diagnosis& d) {
-  if (!d.loop || d.held_out_runs.empty()) return false;
-  double square = 0.0;
-  for (const HeldOutRun& run : d.held_out_runs) square += run.rmse * run.rmse;
-  const double left = std::sqrt(square / static_cast<double>(d.held_out_runs.size()));
-  return !d.closed_loop || !(d.closed_loop->after <= left);
-}
 
 Told error_of(const CardFacts& f, const Card& card) {
   if (f.diagnosis == nullptr) return fit_of_motion(f);

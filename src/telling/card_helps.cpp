@@ -185,7 +185,7 @@ Told helps_of(const CardFacts& f, const Card& card) {
   const auto put = [&](Told more) { told.insert(told.end(), more.begin(), more.end()); };
   if (!d.added.empty()) {
     put({fall(f, card), {"helps.fitted", {added_names(d)}}});
-    if (comes_no_nearer(d.mismatch) && !leads_in_loop(d))
+    if (comes_no_nearer(d.mismatch) && !d.loop)
       put({{"helps.no_nearer",
             {number("before", d.mismatch.before, "rad"), number("after", d.mismatch.after, "rad"),
              word("measure", d.mismatch.measure)}}});
@@ -193,6 +193,9 @@ Told helps_of(const CardFacts& f, const Card& card) {
       put({what_is_left(f, card)});
   }
   put(of_laws(d));
+  if (told.empty() && d.loop && !d.loop->added.empty() && d.closed_loop)
+    return {{"helps.loop",
+             {number("before", d.closed_loop->before, "rad"), number("after", d.closed_loop->after, "rad")}}};
   if (told.empty())
     return {{d.stopped                      ? "helps.stopped"
              : suspected_rung(d) != nullptr ? "helps.not_established"

@@ -57,9 +57,6 @@ Told next_of(const CardFacts& facts, const Card& card);
 /// whole: small errors of the right numbers add up to less.
 bool drifts_farther(const Diagnosis& diagnosis);
 
-/// Whether the model that was fitted in the loop follows what was held out better than that of the torque
-/// does.
-bool leads_in_loop(const Diagnosis& d);
 /// Whether the floor of a budget is that the drive does not repeat, clearly more than the encoder's noise.
 bool is_of_the_drive(const ErrorBudget& budget);
 /// Whether the size in torque tells what is left: of windows that rest in their median it is none.

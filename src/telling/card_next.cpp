@@ -188,7 +188,7 @@ Told next_of(const CardFacts& f, const Card& card) {
   const bool unknown = d.verdict == DiagnosisVerdict::kUnknown;
   if (!d.held.empty() && (unknown || d.verdict == DiagnosisVerdict::kHelps))
     return {{"next.estimate", {names("held", d.held), estimate_true()}}};
-  if (leads_in_loop(d)) return step_of_the_loop(f);
+  if (d.loop) return step_of_the_loop(f);
   if (unknown && d.better_swapped) return {{"next.swap"}};  // which takes no new recording
   if (Told onwards = step_onwards(d); !onwards.empty()) return onwards;
   if (Told next = experiment(d); !next.empty()) return next;

@@ -172,6 +172,7 @@ constexpr Wording kWordings[] = {
     {"where.pattern", "The missing {torque} {where}."},
     {"where.short", "The held-out motion covers {turns} turns, less than one period."},
     // Its cause.
+    {"firmware.rate", "The firmware's loop runs at {value}."},
     {"firmware.speed", "The firmware moves to its goal at no more than {value}."},
     {"firmware.acceleration", "The firmware accelerates towards its goal by no more than {value}."},
     {"firmware.filter", "The firmware smooths its goal with a time constant of {value}."},
@@ -179,6 +180,8 @@ constexpr Wording kWordings[] = {
     {"firmware.late", "The controller's output acts {value} late."},
     {"firmware.ends", "The controller's output is limited to {value}."},
     {"firmware.falls", "The controller's gain falls where the error exceeds {value}."},
+    {"cause.loop", "What the torque alone does not tell, the closed loop does, from goal to position."},
+    {"cause.loop.drive", "The drive has {effects}."},
     {"cause.none", "Nothing is missing that this recording could show."},
     {"cause.numbers",
      "No effect is missing that this recording could show; some numbers of the configuration were off, and "
@@ -254,6 +257,9 @@ constexpr Wording kWordings[] = {
     {"share.motion.left", "cuts what is left of the {error} by {share}"},
     {"share.torque", "brings it from {before#} to {after}"},
     {"helps.stopped", "Not known: the search was stopped before its end."},
+    {"helps.loop",
+     "What the closed loop tells brings its error in position[ from {before}] to {after} rms, over the whole of what "
+     "was held out."},
     {"helps.none", "Nothing in the catalogue helps."},
     {"helps.not_established", "Nothing that these recordings establish.",
      "Nothing that these recordings establish; `fitted.yaml` has no addition."},

@@ -142,6 +142,7 @@ def write(s, folder):
 def truths(s):
     """Of each number: its size, and whether a law of this name is there."""
     there = {
+        "controller.rate": s["firmware_hz"],
         "controller.profile.speed": s["profile"] and s["profile"][0],
         "controller.profile.acceleration": s["profile"] and s["profile"][1],
         "controller.goal_filter_s": s["filter_s"],

@@ -87,7 +87,7 @@ TEST(LoopFit, FindsWhatTheFirmwareDoesAndHoldsForAnotherMass) {
 /// Steps of a goal that the firmware follows slowly: they look like inertia, friction and delay.
 Recording steps_of(double mass, double gain_times) {
   DriveController law;
-  law.gain = 8.0 * gain_times, law.rate = 1000.0;
+  law.gain = 8.0 * gain_times, law.rate = 250.0;
   law.profile_speed = 3.0, law.profile_acceleration = 30.0;
   std::vector<double> goal;
   const double places[] = {0.0, 1.1, -0.6, 0.4, 1.3, -1.0};
@@ -111,6 +111,7 @@ TEST(LoopFit, TellsAProfileOfTheGoalFromADrive) {
   options.rate_is_sought = true;
   const auto found = fit_in_loop(traces, servo_model(0.5), declared, options);
   ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(found->controller.rate, 250.0);
   EXPECT_NEAR(found->controller.profile_speed, 3.0, 0.03);
   EXPECT_NEAR(found->controller.profile_acceleration, 30.0, 1.0);
   EXPECT_NEAR(found->model.parameters[place::kMotorInertia].value, 0.025, 0.0025);

@@ -227,7 +227,8 @@ struct Diagnosis {
   std::vector<Doubt> doubts;  ///< of what was fitted and held out, and of what the fitted model leaves of it
   std::vector<std::string> warnings;
   std::vector<MismatchTrace> traces;
-  ReferenceModel fitted;  ///< the model as fitted, accepted effects included
+  ReferenceModel nominal;  ///< the model refitted before anything was added; not stored
+  ReferenceModel fitted;   ///< the model as fitted, accepted effects included
   double observer_hz = kNaN;
   StepEvidence evidence;  ///< of the first step; not stored in diagnosis.json
 
@@ -235,8 +236,9 @@ struct Diagnosis {
   std::vector<DetectableEffect> detectable;
 
   std::vector<Rival> rivals;  ///< models between which these recordings do not decide well; empty: they do
-  NextExperiment next_experiment;                  ///< that would; left to the caller, as it takes time
-  std::optional<LoopFit> loop;                     ///< the model that these are of, under its controller
+  NextExperiment next_experiment;  ///< that would; left to the caller, as it takes time
+  std::optional<LoopFit>
+      loop;  ///< under its controller, where that follows what is held out nearer than `fitted`
   std::optional<ClosedLoop> closed_loop;           ///< where a controller is at work that is known
   std::optional<DriveController> controller = {};  ///< that controller, as fitted with what was added
 

@@ -93,13 +93,14 @@ class ShapedGoal {
     filtered_ =
         c.goal_filter > 0.0 ? target + (filtered_ - target) * std::exp(-span / c.goal_filter) : target;
     if (!(c.profile_speed < kInfinity) && !(c.profile_acceleration < kInfinity)) return position_ = filtered_;
-    const double pieces = std::ceil(span / kLongestPiece);
+    const double pieces = c.rate > 0.0 ? 1.0 : std::ceil(span / kLongestPiece);
     for (double i = 0.0; i < pieces; ++i) move(c.profile_speed, c.profile_acceleration, span / pieces);
     return position_;
   }
 
  private:
-  static constexpr double kLongestPiece = 1e-3;  ///< of its motion, along which its speed is one [s]
+  /// Of its motion, along which its speed is one [s]: a turn of the firmware, where that is not known this.
+  static constexpr double kLongestPiece = 1e-3;
 
   void move(double speed, double acceleration, double h) {
     const double way = filtered_ - position_, far = std::abs(way);

@@ -22,9 +22,10 @@ Recording simulate_under_controller(const PlantModel<double>& model, const Drive
 /// later.
 /// @param controller  as it is declared: the recording says by how much its gain was another
 /// @param start       of the drive, at the first row
+/// @param phase       share of a turn of the controller by which its first update comes after the first row
 /// @returns the position that the encoder would read at each row [rad]; empty where the motion diverges
 std::vector<double> positions_under_controller(const PlantModel<double>& model,
                                                const DriveController& controller, const MotorTrace& recording,
-                                               const DriveState<double>& start);
+                                               const DriveState<double>& start, double phase = 0.0);
 
 }  // namespace gapscope
