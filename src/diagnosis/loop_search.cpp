@@ -16,6 +16,7 @@ constexpr double kSettled = 2e-3;      ///< of the error, below which a step is 
 constexpr double kAlike = 1.0;         ///< time within which what is left is taken as alike [s]
 constexpr int kTrials = 6;             ///< of a step that does not lessen the error
 constexpr std::size_t kFirstRows = 5;  ///< over which the first speed is read
+constexpr int kPhaseHalvings = 3;      ///< of what is between two of them
 constexpr int kPhases = 8;             ///< of a turn of the firmware against the rows, which no log tells
 
 /// The speed with which a recording begins: none, where it moves by no more than the encoder's steps.
@@ -42,10 +43,17 @@ double mean_error(const MotorTrace& trace, const std::vector<double>& x) {
 double phase_of(const Loop& loop, const MotorTrace& trace) {
   if (loop.controller.rate == 0.0) return 0.0;
   double phase = 0.0, least = kInfinity;
-  for (int p = 0; p < kPhases; ++p) {
-    const double tried = static_cast<double>(p) / kPhases;
+  const auto look_at = [&](double tried) {
+    tried -= std::floor(tried);
     if (const double error = mean_error(trace, positions_at(tried, loop, trace)); error < least)
       phase = tried, least = error;
+  };
+  double step = 1.0 / kPhases;
+  for (int p = 0; p < kPhases; ++p) look_at(p * step);
+  for (int halving = 0; halving < kPhaseHalvings; ++halving) {
+    step *= 0.5;
+    const double at = phase;
+    look_at(at - step), look_at(at + step);
   }
   return phase;
 }

@@ -1,6 +1,7 @@
 // A servo in its loop: the goal goes in, the position comes out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -87,11 +88,11 @@ TEST(LoopFit, FindsWhatTheFirmwareDoesAndHoldsForAnotherMass) {
 /// Steps of a goal that the firmware follows slowly: they look like inertia, friction and delay.
 Recording steps_of(double mass, double gain_times) {
   DriveController law;
-  law.gain = 8.0 * gain_times, law.rate = 250.0;
+  law.gain = 8.0 * gain_times, law.rate = 1000.0;
   law.profile_speed = 3.0, law.profile_acceleration = 30.0;
   std::vector<double> goal;
   const double places[] = {0.0, 1.1, -0.6, 0.4, 1.3, -1.0};
-  for (int i = 0; i < 600; ++i) goal.push_back(places[i / 100]);
+  for (int i = 0; i < 360; ++i) goal.push_back(places[i / 60]);
   SimulationOptions options;
   options.rate = 100.0;
   Recording r = simulate_under_controller(servo(mass), law, goal, options);
@@ -111,11 +112,31 @@ TEST(LoopFit, TellsAProfileOfTheGoalFromADrive) {
   options.rate_is_sought = true;
   const auto found = fit_in_loop(traces, servo_model(0.5), declared, options);
   ASSERT_TRUE(found);
-  EXPECT_DOUBLE_EQ(found->controller.rate, 250.0);
   EXPECT_NEAR(found->controller.profile_speed, 3.0, 0.03);
   EXPECT_NEAR(found->controller.profile_acceleration, 30.0, 1.0);
   EXPECT_NEAR(found->model.parameters[place::kMotorInertia].value, 0.025, 0.0025);
   EXPECT_NEAR(found->model.parameters[place::kTorqueConstant].value, 0.4, 0.02);
+}
+
+/// Its goals take effect at turns of 4 ms, between rows of 11 ms.
+TEST(LoopFit, TellsTheRateAtWhichAFirmwareActs) {
+  DriveController law, declared;
+  declared.gain = law.gain = 24.0, law.rate = 250.0;
+  SimulationOptions options;
+  options.rate = 90.0;
+  std::vector<double> goal;
+  for (int i = 0; i < 360; ++i) goal.push_back(1.2 * std::sin(0.06 * i) + 0.6 * (i / 90));
+  Recording log = simulate_under_controller(servo(0.5), law, goal, options);
+  for (double& x : log.x1) x = 1.5e-3 * std::round(x / 1.5e-3);
+  log.quantum = 1.5e-3;
+  const MotorTrace trace = log.motor_trace();
+  LoopFitOptions asked;
+  asked.rate_is_sought = true;
+  const auto found = fit_in_loop({&trace, 1}, servo_model(0.5), declared, asked);
+  ASSERT_TRUE(found);
+  EXPECT_DOUBLE_EQ(found->controller.rate, 250.0);
+  EXPECT_EQ(std::ranges::count(found->added, "controller.rate"), 1);
+  EXPECT_NEAR(found->model.parameters[place::kTorqueConstant].value, 0.4, 0.004);
 }
 
 /// 0.535 and 1.168 kg on one servo: fitted on the first, the other mass is a question of the model alone. The
