@@ -69,6 +69,21 @@ std::vector<double> about_its_mean(Samples y, std::size_t lag) {
   return level;
 }
 
+/// The period of an input that comes again, though not from sample to sample; 0: it does not.
+double even_period(const MotorTrace& trace) {
+  constexpr double kEven =
+      1.1;  ///< longest over shortest half period: 1.05 loses noisy turns, 1.2 takes in chance
+  if (trace.u.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(trace.u.begin(), trace.u.end());
+  const std::vector<std::size_t> found = crossings(trace.u, 0.5 * (*low + *high), 0.5 * (*high - *low));
+  if (found.size() <= kFewestHalfPeriods) return 0.0;
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < found.size(); ++i)
+    lengths.push_back(trace.dt * static_cast<double>(found[i] - found[i - 1]));
+  const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+  return *longest < kEven * *shortest ? 2.0 * median(lengths) : 0.0;
+}
+
 double leaning(Samples u) {
   double sum = 0.0, squares = 0.0;
   for (const double v : u) sum += v;
@@ -115,7 +130,8 @@ SignalFacts read_facts(const MotorTrace& trace) {
   facts.noise = std::max(noise_from_differences(y), rounding_noise(facts.quantum));
   facts.input_period = exact_period(trace, kFewestRepetitions);
   read_period(trace, without_drift(trace, facts.input_period), facts);
-  const auto period = static_cast<std::size_t>(std::lround(facts.input_period / trace.dt));
+  const double coming_again = facts.input_period > 0.0 ? facts.input_period : even_period(trace);
+  const auto period = static_cast<std::size_t>(std::lround(coming_again / trace.dt));
   if (facts.half_periods < kFewestHalfPeriods && period > 0 && facts.moves())
     read_period(trace, about_its_mean(y, period), facts);
   if (!facts.moves()) {
