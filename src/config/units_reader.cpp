@@ -152,8 +152,7 @@ std::string columns_text(const RecordingColumns& c) {
 }
 
 void write_rows(YamlWriter& out, const ReadOptions& reading) {
-  if (reading.columns.rate > 0.0)
-    out.entry("rate", yaml_number(reading.columns.rate), "Hz; the file has no time");
+  if (reading.columns.rate > 0.0) out.entry("rate", yaml_number(reading.columns.rate), "Hz, of the rows");
   if (reading.unwrap == Unwrap::kAlways) out.entry("unwrap", "true", "x1 starts again after each turn");
   if (reading.unwrap == Unwrap::kNever) out.entry("unwrap", "false");
   if (reading.input_rows != 0) out.entry("input_rows", std::to_string(reading.input_rows), "u is moved by");

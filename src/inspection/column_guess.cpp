@@ -318,4 +318,30 @@ ColumnGuess guess_columns(const std::string& path, ColumnGuess guess, bool rated
   return guess;
 }
 
+NamedRate named_rate(const std::string& path, const RecordingColumns& columns) {
+  const Seen seen = seen_in(path);
+  if (!seen.named()) return {};
+  ColumnGuess guess;
+  guess.input = columns.input, guess.position = columns.position;
+  guess.time =
+      by_name(seen, ColumnRole::kTime, guess.side, "", {columns.input, columns.position, columns.target});
+  if (guess.time.empty()) return {};
+  take_units(path, seen, false, guess);
+  const std::string named = unit_in_name(guess.time, Quantity::kTime);
+  if (named.empty() && seen.is_text && count_rows(numbers_of(seen.form, place_in(seen.form, guess.time))))
+    return {};  // milliseconds or the number of the row
+  RecordingColumns timed = columns;
+  timed.rate = 0.0, timed.time = guess.time;
+  const std::string& unit = guess.time_unit.empty() ? named : guess.time_unit;
+  if (const auto scale = unit_scale(Quantity::kTime, unit.empty() ? "s" : unit)) timed.scales.time = *scale;
+  try {
+    const auto rows = internal::recording::read_rows(path, timed, internal::recording::EarlierRow::kSkipped);
+    if (rows.size() < 2) return {};
+    const auto count = static_cast<double>(std::abs(rows.line.back() - rows.line.front()));
+    return {guess.time, count / (rows.t.back() - rows.t.front())};
+  } catch (const ConfigError&) {
+    return {};  // whoever names a rate need not have a time that is read
+  }
+}
+
 }  // namespace gapscope

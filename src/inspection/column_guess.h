@@ -5,6 +5,7 @@
 
 #include "gapscope/base/encoder_side.h"
 #include "gapscope/base/remark.h"
+#include "gapscope/recording/recording_file.h"
 #include "gapscope/recording/units.h"
 
 namespace gapscope {
@@ -27,5 +28,12 @@ struct ColumnGuess {
 /// @throws ConfigError where a column cannot be told, with what there is and how to name it; where the file
 /// is none
 ColumnGuess guess_columns(const std::string& path, ColumnGuess declared, bool rated);
+
+/// What the rows of a file come at in the mean by the column that has the time by its name [Hz].
+struct NamedRate {
+  std::string column;  ///< empty: there is none that rises
+  double rate = 0.0;
+};
+NamedRate named_rate(const std::string& path, const RecordingColumns& columns);
 
 }  // namespace gapscope

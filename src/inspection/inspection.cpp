@@ -137,6 +137,7 @@ Inspection inspect(const std::string& path, const ReadOptions& options, Coordina
   m.recording = on_grid(m.rows, options);
   m.resampled = options.resample_rate.has_value();
   m.coordinates = coordinates;
+  if (options.columns.rate > 0.0) m.named_rate = named_rate(path, options.columns);
   m.signal = internal::signals::read_facts(m.recording.motor_trace());
   Inspection inspection;
   inspection.file = path;

@@ -12,6 +12,7 @@
 #include "gapscope/base/remark.h"
 #include "gapscope/inspection/inspection.h"
 #include "gapscope/recording/recording.h"
+#include "inspection/column_guess.h"
 #include "recording/recorded_rows.h"
 #include "signals/signal_facts.h"
 
@@ -26,6 +27,7 @@ struct Material {
   bool commanded = false;       ///< u is what a controller makes of a target
   Recording recording;          ///< the rows on a uniform grid
   signals::SignalFacts signal;  ///< of its x1
+  NamedRate named_rate;         ///< where the rows are told to come at a rate: what the file says of it
   bool resampled = false;       ///< on request: also for fit and diagnose, which need no grid
   Coordinates coordinates;
   const char* unit() const { return coordinates.position_unit(); }

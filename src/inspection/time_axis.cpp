@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shown.h"
 #include "inspection/rules.h"
 #include "recording/lost_rows.h"
 
@@ -18,6 +19,7 @@ struct Steps {
   double median = kNaN, shortest = kNaN, longest = kNaN;  ///< [s]
   std::size_t longest_row = 0, pauses = 0;
   double missing = 0.0;
+  double usual = 0.0;  ///< in the mean, where nothing is missing [s]
 };
 
 Steps steps_of(const recording::RecordedRows& rows) {
@@ -28,7 +30,10 @@ Steps steps_of(const recording::RecordedRows& rows) {
   s.shortest = *shortest, s.longest = *longest;
   s.longest_row = static_cast<std::size_t>(longest - all.begin());
   s.median = median(all);
-  for (const Loss& loss : losses_of(rows.t)) ++s.pauses, s.missing += static_cast<double>(loss.lost);
+  s.usual = rows.t.back() - rows.t.front();
+  for (const Loss& loss : losses_of(rows.t))
+    ++s.pauses, s.missing += static_cast<double>(loss.lost), s.usual -= all[loss.row];
+  s.usual /= static_cast<double>(all.size() - s.pauses);
   return s;
 }
 
@@ -65,6 +70,15 @@ Finding pc_clock(const Material& m, double off) {
           100.0 * off, m.rows.skipped.size()),
       "these are not the times at which x1 was read: record the drive's own clock or the PC's fine one; where "
       "the drive samples at a fixed rate, write t = row number / rate"};
+}
+
+Finding other_rate(const Material& m, const RecordingFacts& facts) {
+  return {
+      kTimeRule, Severity::kSpoils,
+      fmt::format("declared to come at {:.4g} Hz, but by {} of the file they come at {:.4g} Hz in the mean",
+                  facts.rate, shown(m.named_rate.column), m.named_rate.rate),
+      "leave out recording: rate (--rate): the time is read then, in the unit that is declared; or give "
+      "the rate at which x1 was read"};
 }
 
 Finding skipped_rows(const Material& m) {
@@ -122,13 +136,16 @@ Finding check_time(const Material& m, RecordingFacts& facts) {
   facts.missing_samples = static_cast<int>(std::min(s.missing, 2e9));
   facts.start = m.rows.t.front();
   facts.duration = m.rows.t.back() - m.rows.t.front() + s.median;
-  facts.rate = 1.0 / s.median;
+  facts.rate = 1.0 / s.usual;
   facts.shortest_step = s.shortest, facts.longest_step = s.longest;
   constexpr double kUnlikeLosses = 0.15;
   if (const double off = off_a_pc_tick(m.rows); off > kUnlikeLosses) {
     facts.coarse_clock = true;
     return pc_clock(m, off);
   }
+  constexpr double kOtherRate = 0.2;  // a time in whole seconds says so much of 5 s; lost rows are as few
+  if (std::abs(std::log(facts.rate / m.named_rate.rate)) > kOtherRate && !m.named_rate.column.empty())
+    return other_rate(m, facts);
   if (!m.rows.skipped.empty()) return skipped_rows(m);
   const bool of_clock = std::any_of(m.rows.assumed.begin(), m.rows.assumed.end(),
                                     [](const Remark& r) { return r.code() == "table.clock"; });

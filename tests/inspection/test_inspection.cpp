@@ -217,6 +217,35 @@ TEST(Inspection, IrregularTimeIsANoteForFitAndDiagnoseAndNeedsAGridForTheDetecto
   EXPECT_FALSE(i.spoilt()) << i.report();
 }
 
+TEST(Inspection, ADeclaredRateThatTheTimeContradictsIsTold) {
+  ReadOptions options;
+  options.columns.rate = 100.0;  // the rig has 1000
+  const Finding time = finding(inspected(good(), options), "time");
+  EXPECT_EQ(time.severity, Severity::kSpoils);
+  EXPECT_THAT(time.found, HasSubstr("come at 1000 Hz"));
+  options.columns.rate = 1000.0;
+  EXPECT_EQ(finding(inspected(good(), options), "time").severity, Severity::kFine);
+  // A clock that is no number, and one that counts the rows, are the reason to name a rate.
+  options.columns.rate = 2000.0;
+  for (const char* stamp : {"n/a", "{}"}) {
+    const Rows rows = good();
+    std::string text = "time,u,x1\n";
+    for (std::size_t i = 0; i < rows.t.size(); ++i)
+      text += fmt::format("{},{},{}\n", fmt::format(fmt::runtime(stamp), i), rows.u[i], rows.x1[i]);
+    const TemporaryFile file(text);
+    EXPECT_EQ(finding(inspect(file.path(), options), "time").severity, Severity::kFine) << stamp;
+  }
+}
+
+TEST(Inspection, AClockOfWholeMillisecondsHasLostNothingAndItsRateIsTheMeanOne) {
+  Rows rows = good();
+  for (std::size_t i = 0; i < rows.t.size(); ++i) rows.t[i] = 1e-3 * std::round(static_cast<double>(i) / 0.7);
+  const Inspection i = inspected(rows);
+  EXPECT_EQ(finding(i, "time").severity, Severity::kNote) << i.report();
+  EXPECT_EQ(i.facts.missing_samples, 0);
+  EXPECT_NEAR(i.facts.rate, 700.0, 1.0);
+}
+
 /// Whatever the balance puts for an inertia whose torque drowns in what one body leaves is no measurement.
 TEST(Inspection, ARecordingThatCannotShowAnInertiaSaysSo) {
   const auto rows_of_body =
