@@ -55,6 +55,25 @@ Finding wrong_unit(const std::string& found, const std::string& advice) {
   return {kPositionUnitRule, Severity::kSpoils, found, advice};
 }
 
+/// @param counts  steps per turn, which no encoder has
+std::optional<Finding> unit_declared_for_another(double counts) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  struct Mistaken {
+    double times;  ///< of what is read, in the unit that it is
+    const char *is, *declared, *unit;
+  };
+  constexpr Mistaken kMistaken[] = {{360.0 / kTurn, "radians", "degrees", "rad"},
+                                    {1.0 / 360.0, "degrees", "turns", "deg"},
+                                    {1.0 / kTurn, "radians", "turns", "rad"}};
+  for (const Mistaken& k : kMistaken)
+    if (is_power_of_two(counts / k.times))
+      return wrong_unit(fmt::format("x1 steps by 1/{:.4g} of a turn, and by 1/{:.0f} were it {:.3g} times as "
+                                    "much: {}, declared as {}?",
+                                    counts, counts / k.times, k.times, k.is, k.declared),
+                        fmt::format("declare it, recording: units: {{position: {}}}", k.unit));
+  return {};
+}
+
 /// "nd" of 2, "rd" of 43, "th" of 11 and of what is no whole number.
 const char* ordinal(double n) {
   const long whole = std::lround(n), last = whole % 10;
@@ -114,13 +133,8 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
     return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
                       "declare it, recording: units: {position: rev}");
-  const double of_radians = turn / (q * 180.0 / std::numbers::pi);  // counts per turn, were these no degrees
-  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(of_radians))
-    return wrong_unit(
-        fmt::format("x1 steps by 1/{:.0f} of a turn, and by 1/{:.0f} were it 57.3 times as much: "
-                    "radians, declared as degrees?",
-                    turn / q, of_radians),
-        "declare it, recording: units: {position: rad}");
+  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q))
+    if (auto other = unit_declared_for_another(turn / q)) return *std::move(other);
   if (auto speed_in_its_place = seeming_position(m)) return *std::move(speed_in_its_place);
   const std::string speeds = "up to " + m.length(speed) + "/s";
   if (speed > limit)

@@ -131,6 +131,10 @@ const std::vector<Fault> kFaults = {
      [] { return changed([](Rows& r) { scale(r.x1, kPi / 180.0); }); },
      {"unit of x1"},
      "57.3 times"},
+    {"degrees_as_turns",
+     [] { return changed([](Rows& r) { scale(r.x1, 360.0); }); },
+     {"unit of x1"},
+     "degrees, declared as turns"},
     {"turns", [] { return changed([](Rows& r) { scale(r.x1, 0.5 / kPi); }); }, {"unit of x1"}, "turns"},
     {"register_without_its_sign",
      [] {
