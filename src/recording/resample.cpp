@@ -18,6 +18,16 @@ std::size_t grid_size(const RecordedRows& table, double rate) {
   if (intervals > static_cast<double>(kMostSamples))
     throw ConfigError(table.path, fmt::format("resampling to {} Hz gives {:.3g} samples, expected at most {}",
                                               rate, intervals, kMostSamples));
+  // Straight lines between the rows tell nothing new, at the cost of as many rows more: 10 refuses a burst
+  // of rows in a log of events, 1000 takes hours.
+  constexpr double kMostPerRow = 100.0;
+  const auto rows = static_cast<double>(table.size());
+  if (intervals > kMostPerRow * rows)
+    throw ConfigError(
+        table.path, fmt::format("resampling to {} Hz gives {:.3g} samples of {} rows, expected at most {} a "
+                                "row, which is up to {:.4g} Hz",
+                                rate, intervals, table.size(), kMostPerRow,
+                                kMostPerRow * rows / (table.t.back() - table.t.front())));
   return static_cast<std::size_t>(std::floor(intervals * (1.0 + 1e-12))) + 1;
 }
 

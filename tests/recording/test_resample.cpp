@@ -77,6 +77,7 @@ TEST(Resample, TheNoteTellsWhatWasDone) {
 
 TEST(Resample, ARateBeyondReasonIsRefused) {
   EXPECT_THROW(internal::recording::resample(irregular(500), 1e9), ConfigError);
+  EXPECT_THROW(internal::recording::resample(irregular(500), 1e5), ConfigError);  // 300 samples a row
 }
 
 }  // namespace
