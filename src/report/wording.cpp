@@ -22,8 +22,9 @@ bool known(const Interval& interval) { return std::isfinite(interval.low) && std
 
 std::string unit_after(const std::string& unit) { return unit.empty() || unit == "-" ? "" : " " + unit; }
 
-/// Small and large numbers of units that take no prefix.
+/// Small and large numbers of units that take no prefix; "0" with fewer than one digit.
 std::string scientific(double value, int digits) {
+  if (value == 0.0 || digits < 1) return "0";
   return typeset(fmt::format("{:.{}e}", value, digits - 1));
 }
 
@@ -183,8 +184,10 @@ std::string plus_minus(double value, const Interval& ci95, const std::string& un
   const double half = (ci95.high - ci95.low) / 2;
   if (std::abs(ci95.low + half - value) > 0.1 * half) return with_interval(value, ci95, unit);
   const AxisScale scale = axis_scale(unit, std::max(std::abs(value), half));
-  if (std::max(std::abs(value), half) / scale.factor < 1e-2)
-    return scientific(value, 4) + " ± " + scientific(half, 2) + unit_after(unit);
+  const auto place = [](double v) { return v == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(v))); };
+  if (std::max(std::abs(value), half) / scale.factor < 1e-2)  // value down to the last digit of its half
+    return scientific(value, half > 0.0 ? place(std::abs(value)) - place(half) + 2 : 4) + " ± " +
+           scientific(half, 2) + unit_after(unit);
   const int decimals = decimals_for(half / scale.factor, 2);
   return tick_label(value / scale.factor, decimals) + " ± " + tick_label(half / scale.factor, decimals) +
          unit_after(scale.unit);

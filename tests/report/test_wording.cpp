@@ -18,6 +18,9 @@ TEST(Wording, ShowsTheDigitsThatTheIntervalWarrants) {
   EXPECT_EQ(fit_text(100.0), "100 %");
   EXPECT_EQ(fit_text(96.154), "96.15 %");
   EXPECT_EQ(plus_minus(2e-5, {0.0, 4.2e-4}, "m"), with_interval(2e-5, {0.0, 4.2e-4}, "m"));
+  EXPECT_EQ(plus_minus(0.0, {-3.2e-5, 3.2e-5}, "kg m²"), "0 ± 3.2·10⁻⁵ kg m²");
+  EXPECT_EQ(plus_minus(8.7812e-4, {8.7722e-4, 8.7902e-4}, "kg m²"), "8.7812·10⁻⁴ ± 9.0·10⁻⁷ kg m²");
+  EXPECT_EQ(plus_minus(8.78e-4, {6.78e-4, 1.078e-3}, "kg m²"), "8.8·10⁻⁴ ± 2.0·10⁻⁴ kg m²");
   EXPECT_EQ(interval_text({0.018771, 0.018829}, "rad"), "18.771 to 18.829 mrad");
   EXPECT_EQ(interval_text({}, "rad"), "");
 }
