@@ -53,6 +53,11 @@ DriveController controller_with(const std::vector<std::string>& set) {
 }  // namespace
 
 std::optional<DriveController> RecordingArguments::commanding() const {
+  if (!set.empty() && (target.empty() || (gain.empty() && of_model)))
+    throw ConfigError(
+        fmt::format("gapscope: --set {} is of a controller that is not declared here, expected --target and "
+                    "--controller-gain beside it",
+                    shown(set.front())));
   if (target.empty() && gain.empty()) return {};
   if (target.empty())
     throw ConfigError(

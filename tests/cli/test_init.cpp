@@ -121,6 +121,8 @@ TEST(Init, AServoThatTakesGoalsMayHaveAGainThatNobodyKnows) {
               ::testing::AllOf(HasSubstr("saturation: 0.8"), HasSubstr("delay: 0.004")));
   EXPECT_THAT(place.run(set + "model.parameters.gap=1 -o m.yaml").err, HasSubstr("is of no controller"));
   EXPECT_THAT(place.run(set + "controller.dealy=0.004 -o m.yaml").err, HasSubstr("--set controller.dealy"));
+  EXPECT_THAT(place.run("init servo.csv --input volts --set controller.foo=1 -o m.yaml").err,
+              HasSubstr("expected --target and --controller-gain"));
 }
 
 TEST(Init, BeginsWithTheNumbersOfAMuJoCoModel) {
