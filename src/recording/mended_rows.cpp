@@ -154,6 +154,20 @@ void move_input(int rows, RecordedRows& table) {
                              std::vector<Remark::Value>{static_cast<long>(rows)});
 }
 
+/// Takes x2 away where it is x1 again: two encoders never read the same to the last digit, from any zero.
+void drop_copied_load(RecordedRows& table) {
+  if (table.x2.size() != table.x1.size() || table.x2.empty()) return;
+  constexpr double kRounding =
+      1e-9;  ///< of the travel: of other units and written digits; encoders leave 1e-6
+  const auto [low, high] = std::ranges::minmax(table.x1);
+  const double zero = table.x2.front() - table.x1.front();
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (!(std::abs(table.x2[i] - table.x1[i] - zero) < kRounding * (high - low))) return;
+  table.x2.clear();
+  table.assumed.emplace_back("load_position.copy", "x2 is x1 again, no second encoder: left out",
+                             std::vector<Remark::Value>{});
+}
+
 }  // namespace
 
 void mend_rows(const ReadOptions& options, RecordedRows& table) {
@@ -161,6 +175,7 @@ void mend_rows(const ReadOptions& options, RecordedRows& table) {
     integrate(table);
   else
     mend_position(options, table);
+  drop_copied_load(table);
   if (options.input_rows != 0 && table.has_input && options.columns.reads_input())
     move_input(options.input_rows, table);
 }

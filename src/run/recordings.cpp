@@ -186,10 +186,12 @@ void note_time(const Recording& r, LostRows how, std::vector<std::string>& notes
                                     "the drive got new inputs"));
 }
 
-/// What was mended in the rows of a recording.
-void note_mended(const Recording& r, Coordinates coordinates, std::vector<std::string>& notes) {
+/// What was mended in the rows of a recording; what was in them and is none is warned of.
+void note_mended(const Recording& r, Coordinates coordinates, LoadedRecordings& loaded) {
   for (const Remark& assumed : r.assumed)
-    if (!assumed.code().starts_with("table.")) notes.push_back(r.file + ": " + assumed.text(coordinates));
+    if (!assumed.code().starts_with("table."))
+      (assumed.code() == "load_position.copy" ? loaded.warnings : loaded.notes)
+          .push_back(r.file + ": " + assumed.text(coordinates));
 }
 
 /// Where input and target both were recorded, the first is taken and the second tells of the controller.
@@ -220,7 +222,7 @@ LoadedRecordings read_all(const Configuration& c, const std::vector<RecordedFile
     r.load = file.load;
     apply_sheet(r, c, loaded.warnings);
     note_time(r, c.recording->reading.lost_rows, loaded.notes);
-    note_mended(r, c.coordinates, loaded.notes);
+    note_mended(r, c.coordinates, loaded);
     note_controller(file, c, uneven, loaded.notes);
     if (r.open_end)
       loaded.notes.push_back(r.file + ": its last line has no end, so the last number may be cut off");

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,6 +32,18 @@ TEST(Csv, ReadsColumnsByNameWhateverTheirOrder) {
   EXPECT_EQ(r.x1[17], 17.0);
   EXPECT_TRUE(r.x2.empty());
   EXPECT_TRUE(r.resampling.empty());
+}
+
+TEST(Csv, AnX2ThatIsX1AgainIsNoSecondEncoder) {
+  const auto read = [](double zero, double off) {
+    std::string text = "t,u,x1,x2\n";
+    for (int i = 0; i < 60; ++i)
+      text += fmt::format("{},3,{},{}\n", 0.5 * i, 0.01 * i, 0.01 * i + zero + (i % 7 == 3 ? off : 0.0));
+    return read_recording(TemporaryFile(text).path());
+  };
+  EXPECT_TRUE(read(0.25, 0.0).x2.empty());
+  EXPECT_EQ(read(0.25, 0.0).assumed.back().code(), "load_position.copy");
+  EXPECT_EQ(read(0.25, 1e-6).x2.size(), 60u);
 }
 
 TEST(Csv, ToleratesByteOrderMarkCrlfCommentsBlanksAndQuotes) {
