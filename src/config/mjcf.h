@@ -29,6 +29,7 @@ class Mjcf {
          e = e->NextSiblingElement("compiler")) {
       if (e->Attribute("angle") != nullptr) degrees_ = !has_attribute(e, "angle", "radian");
       if (e->Attribute("eulerseq") != nullptr) euler_sequence_ = e->Attribute("eulerseq");
+      if (e->Attribute("autolimits") != nullptr) auto_limits_ = !has_attribute(e, "autolimits", "false");
     }
   }
 
@@ -44,11 +45,10 @@ class Mjcf {
     for (std::string of = class_of(e);;) {
       const auto found = classes_.find(of);
       if (found == classes_.end()) return nullptr;
-      for (auto part = found->second.parts.rbegin(); part != found->second.parts.rend(); ++part) {
-        const tinyxml2::XMLElement* defaults = (*part)->FirstChildElement(e.Name());
-        if (defaults != nullptr && defaults->Attribute(attribute) != nullptr)
-          return defaults->Attribute(attribute);
-      }
+      for (auto part = found->second.parts.rbegin(); part != found->second.parts.rend(); ++part)
+        for (auto kind = (*part)->LastChildElement(); kind != nullptr; kind = kind->PreviousSiblingElement())
+          if ((is_named(*kind, e.Name()) || of_all_actuators(e, attribute)) && kind->Attribute(attribute))
+            return kind->Attribute(attribute);
       if (found->second.parent.empty()) return nullptr;
       of = found->second.parent;
     }
@@ -80,14 +80,30 @@ class Mjcf {
     return value(joint, attribute, 0.0) * (slides(joint) ? 1.0 : angle_unit());
   }
 
-  /// Of a joint, in rad or m.
+  /// Whether a range holds.
+  /// @param attribute  limited, ctrllimited, forcelimited
+  bool limited(const tinyxml2::XMLElement& e, const char* attribute = "limited") const {
+    const std::string told = word(e, attribute, "auto");
+    return told == "true" || (told == "auto" && auto_limits_);
+  }
+
+  /// Of a joint, in rad or m; NaN: it has no range that holds.
   double range_width(const tinyxml2::XMLElement& joint) const {
     const auto range = values(joint, "range");
-    if (range.size() < 2) return kNaN;
+    if (range.size() < 2 || !limited(joint)) return kNaN;
     return (range[1] - range[0]) * (slides(joint) ? 1.0 : angle_unit());
   }
 
  private:
+  /// MuJoCo keeps one default for actuators of every kind; only what makes the kind is that kind's.
+  static bool of_all_actuators(const tinyxml2::XMLElement& e, std::string_view attribute) {
+    const tinyxml2::XMLNode* const parent = e.Parent();
+    const bool shared =
+        attribute == "gear" || attribute.starts_with("ctrl") || attribute.starts_with("force");
+    return shared && parent != nullptr && parent->ToElement() != nullptr &&
+           is_named(*parent->ToElement(), "actuator");
+  }
+
   struct DefaultClass {
     std::vector<const tinyxml2::XMLElement*> parts;  ///< of several files; a later one comes first
     std::string parent;
@@ -112,7 +128,7 @@ class Mjcf {
   const tinyxml2::XMLElement& top_;
   std::string file_;
   std::map<std::string, DefaultClass> classes_;
-  bool degrees_ = true;
+  bool degrees_ = true, auto_limits_ = true;
   std::string euler_sequence_ = "xyz";
 };
 

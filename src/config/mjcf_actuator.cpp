@@ -65,8 +65,7 @@ void read_filter(const Mjcf& m, const XMLElement& e, Actuation& a) {
 /// @param of  "ctrl", "force"
 double limit_of(const Mjcf& m, const XMLElement& e, const std::string& of, Actuation& a) {
   const auto range = m.values(e, (of + "range").c_str());
-  const bool limited = m.word(e, (of + "limited").c_str(), "auto") != "false";
-  if (!limited || range.size() < 2 || !(range[0] < range[1])) return kInfinity;
+  if (!m.limited(e, (of + "limited").c_str()) || range.size() < 2 || !(range[0] < range[1])) return kInfinity;
   if (std::abs(range[0] + range[1]) <= 1e-9 * range[1]) return range[1];
   a.notes.push_back(
       fmt::format("not taken: the actuator's {}range {:.4g} to {:.4g}, which is not alike both ways", of,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,8 @@ using tinyxml2::XMLElement;
 
 /// A joint whose range is below this stands for a gap where it has a neighbour on its body [rad].
 constexpr double kWidestGap = 0.35;
+
+constexpr double kRounding = 1e-9;  ///< of a number that is written
 
 /// @throws ConfigError for one that neither turns nor slides, and where there are two
 const XMLElement* joint_named(const Mjcf& m, const std::string& name) {
@@ -80,19 +83,28 @@ void read_load(const Mjcf& m, const XMLElement& load, const std::string& name, J
 const XMLElement* read_tendon(const Mjcf& m, const std::string& joint, JointNumbers& n) {
   for (const XMLElement* fixed : elements_below(m.top(), "fixed")) {
     std::string other;
-    bool mine = false;
+    double own = 0.0, others = 0.0;  // coef
+    std::size_t count = 0;
     for (const XMLElement* j = fixed->FirstChildElement("joint"); j != nullptr;
          j = j->NextSiblingElement("joint")) {
       const char* name = j->Attribute("joint");
       if (name == nullptr) continue;
+      ++count;
       if (name == joint)
-        mine = true;
+        own = std::abs(m.value(*j, "coef", 1.0));
       else
-        other = name;
+        other = name, others = std::abs(m.value(*j, "coef", 1.0));
     }
     const auto range = m.values(*fixed, "range");
-    if (!mine || range.size() < 2) continue;
-    const double width = range[1] - range[0];
+    if (own == 0.0 || range.size() < 2 || !m.limited(*fixed)) continue;
+    if (count > 2 || (count == 2 && std::abs(own - others) > kRounding * own)) {
+      n.notes.push_back(fmt::format(
+          "not taken: the range of the tendon of line {}, which is no gap between two joints that go "
+          "alike (coef)",
+          fixed->GetLineNum()));
+      continue;
+    }
+    const double width = (range[1] - range[0]) / own;
     if (other.empty()) {
       if (!(width < kWidestGap)) continue;
       n.gap = width, n.locked = true;
@@ -118,6 +130,9 @@ void read_actuation(const Mjcf& m, const std::string& joint, JointNumbers& n) {
 }
 
 void note_spring(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
+  if (const auto by = m.values(joint, "springdamper"); by.size() == 2 && by[0] > 0.0 && by[1] > 0.0)
+    n.notes.emplace_back(
+        "not taken: springdamper of the joint, which MuJoCo turns into stiffness and damping: give these");
   const double stiffness = m.value(joint, "stiffness", 0.0);
   if (stiffness == 0.0) return;
   n.notes.push_back(fmt::format(
@@ -125,17 +140,21 @@ void note_spring(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
       stiffness, m.turned(joint, "springref")));
 }
 
-/// A second, narrow joint of the same body.
+/// A second, narrow joint of the same body about the same axis.
 void read_neighbour(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
+  const auto axis = [&](const XMLElement& j) { return three_of(m, j, "axis", Eigen::Vector3d::UnitZ()); };
+  const Eigen::Vector3d own = axis(joint).normalized();
   for (const XMLElement* j = joint.Parent()->FirstChildElement("joint"); j != nullptr;
-       j = j->NextSiblingElement("joint"))
-    if (const double width = m.range_width(*j); j != &joint && width > 0.0 && width < kWidestGap) {
+       j = j->NextSiblingElement("joint")) {
+    if (j == &joint || m.slides(*j) != n.slides || own.cross(axis(*j).normalized()).norm() > 1e-6) continue;
+    if (const double width = m.range_width(*j); width > 0.0 && width < kWidestGap) {
       n.gap = width;
       n.notes.push_back(
           "the gap is the range of a second joint of the same body: there the load's friction and damping have no "
           "place of their own, so they are left to the fit");
       return;
     }
+  }
 }
 
 /// Where another body on the same axis would stand.

@@ -145,6 +145,9 @@ class Sum {
       if (is_named(*in, "body") && !with_fixed_) continue;
       if (is_named(*in, "body") && moves(*in)) sum.moving = body_name(*in);
       if (is_named(*in, "body") && !moves(*in)) inside(*in);
+      const bool repeated = is_named(*in, "replicate") && !elements_below(*in, "geom").empty();
+      if (repeated || is_named(*in, "attach"))  // what stands there is made as the model is compiled
+        tell_unknown(*in, body, is_named(*in, "attach") ? "an attached model" : "a replicate");
     }
   }
 
@@ -162,16 +165,17 @@ class Sum {
              turn * turn_of(m_, e), own);
   }
 
+  void tell_unknown(const XMLElement& e, const XMLElement& body, const std::string& why) {
+    if (sum.unknown.empty())
+      sum.unknown =
+          fmt::format("{}:{}: the mass of {} is that of {}", m_.file(), e.GetLineNum(), body_name(body), why);
+  }
+
   void add_geom(const XMLElement& e, const XMLElement& body, const Vector3d& at, const Matrix3d& turn) {
     const Geom geom(m_, e);
     const double group = m_.value(e, "group", 0.0);
     if (group < first_group_ || group > last_group_ || geom.has_none()) return;
-    if (const std::string why = geom.unknown(); !why.empty()) {
-      if (sum.unknown.empty())
-        sum.unknown = fmt::format("{}:{}: the mass of {} is that of {}", m_.file(), e.GetLineNum(),
-                                  body_name(body), why);
-      return;
-    }
+    if (const std::string why = geom.unknown(); !why.empty()) return tell_unknown(e, body, why);
     const Solid solid = geom.solid();
     const double mass = geom.mass(solid.volume);
     sum.of_geoms = true;
@@ -208,16 +212,36 @@ double FixedMass::inertia_about(const Vector3d& axis, const Vector3d& at) const 
   return a.dot(moved * a);
 }
 
-FixedMass fixed_mass(const Mjcf& m, const XMLElement& body) {
-  Sum sum(m);
+namespace {
+
+FixedMass as_written(const Mjcf& m, const XMLElement& body, bool with_fixed) {
+  Sum sum(m, with_fixed);
   sum.add(body, body, Vector3d::Zero(), Matrix3d::Identity());
   return sum.sum;
 }
 
-FixedMass own_mass(const Mjcf& m, const XMLElement& body) {
-  Sum sum(m, false);
-  sum.add(body, body, Vector3d::Zero(), Matrix3d::Identity());
-  return sum.sum;
+/// compiler settotalmass makes all bodies as many times heavier as the whole is then.
+FixedMass as_compiled(const Mjcf& m, const XMLElement& body, bool with_fixed) {
+  FixedMass sum = as_written(m, body, with_fixed);
+  double wanted = 0.0, written = 0.0;
+  for (const XMLElement* e : elements_below(m.top(), "compiler"))
+    wanted = m.value(*e, "settotalmass", wanted);
+  if (!(wanted > 0.0) || !(sum.mass > 0.0)) return sum;
+  for (const XMLElement* e : elements_below(m.top(), "body")) {
+    const FixedMass own = as_written(m, *e, false);
+    written += own.mass;
+    if (sum.unknown.empty()) sum.unknown = own.unknown;
+  }
+  const double times = wanted / written;
+  sum.mass *= times, sum.moment *= times, sum.inertia *= times;
+  sum.hanging *= times, sum.hanging_moment *= times;
+  return sum;
 }
+
+}  // namespace
+
+FixedMass fixed_mass(const Mjcf& m, const XMLElement& body) { return as_compiled(m, body, true); }
+
+FixedMass own_mass(const Mjcf& m, const XMLElement& body) { return as_compiled(m, body, false); }
 
 }  // namespace gapscope::internal::config

@@ -9,7 +9,8 @@ namespace gapscope::internal::config {
 
 /// Of a body and of all that is fixed to it, in the body's own frame, as MuJoCo compiles it: from its
 /// inertial, or else from its geoms (their mass, or density times volume, a sphere's, box's, cylinder's,
-/// capsule's or ellipsoid's), which inertiafromgeom="true" prefers. Not read: meshes, shells, settotalmass.
+/// capsule's or ellipsoid's), which inertiafromgeom="true" prefers, scaled where settotalmass says so. Not
+/// read: meshes, shells, what is replicated or attached, bounds (boundmass, boundinertia, balanceinertia).
 struct FixedMass {
   double mass = 0.0;                                  ///< [kg]
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< Σ m c [kg m]

@@ -59,6 +59,47 @@ TEST(JointNumbers, OfAnMjcfKnowTheGapOfANarrowSecondJoint) {
   EXPECT_NEAR(read("<mujoco>" + body + "</mujoco>", "drive").gap, 2.0 * 3.14159265358979 / 180.0, 1e-12);
   EXPECT_TRUE(std::isnan(read("<mujoco><compiler angle=\"radian\"/>" + body + "</mujoco>", "drive").gap))
       << "two radians are no gap";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string other = body;
+    return std::isnan(
+        read("<mujoco>" + other.replace(other.find(from), from.size(), to) + "</mujoco>", "drive").gap);
+  };
+  EXPECT_TRUE(with("limited=\"true\"", "limited=\"false\""));
+  EXPECT_TRUE(with("name=\"play\"", "name=\"play\" axis=\"1 0 0\"")) << "about another axis";
+}
+
+TEST(JointNumbers, OfAnMjcfKnowTheGapOfATendonThroughItsCoefficients) {
+  const auto numbers = [](const std::string& tendon, const char* own, const char* other) {
+    return read(
+        R"(<mujoco><compiler autolimits="false"/><worldbody><body><joint name="a" armature="1e-3"/></body>
+      <body><joint name="b" armature="2e-3"/></body></worldbody><tendon><fixed range="-0.01 0.01" )" +
+            tendon + "><joint joint=\"a\" coef=\"" + own + "\"/><joint joint=\"b\" coef=\"" + other +
+            "\"/></fixed></tendon></mujoco>",
+        "a");
+  };
+  EXPECT_DOUBLE_EQ(numbers("limited=\"true\"", "1", "-1").gap, 0.02);
+  EXPECT_DOUBLE_EQ(numbers("limited=\"true\"", "2", "-2").gap, 0.01);
+  const JointNumbers geared = numbers("limited=\"true\"", "1", "-50");
+  EXPECT_TRUE(std::isnan(geared.gap));
+  EXPECT_THAT(geared.notes.back(), HasSubstr("no gap between two joints that go alike (coef)"));
+  EXPECT_TRUE(std::isnan(numbers("limited=\"false\"", "1", "-1").gap));
+  EXPECT_TRUE(std::isnan(numbers("", "1", "-1").gap)) << "autolimits";
+}
+
+TEST(JointNumbers, OfAnMjcfHaveTheMassOfTheWhole) {
+  const auto inertia = [](const std::string& compiler, const std::string& more) {
+    return read("<mujoco><compiler " + compiler + R"(/><worldbody><body><joint name="a" armature="0.5"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)" +
+                    more +
+                    R"(<body><joint name="b"/><inertial pos="0 0 0" mass="3" diaginertia="1 1 1"/></body>
+      </body></worldbody></mujoco>)",
+                "a");
+  };
+  EXPECT_DOUBLE_EQ(inertia("settotalmass=\"8\"", "").inertia, 0.5 + 2.0);
+  const JointNumbers open =
+      inertia("", "<replicate count=\"3\"><body><geom size=\"0.1\"/></body></replicate>");
+  EXPECT_DOUBLE_EQ(open.inertia, 0.5);
+  EXPECT_THAT(open.notes.front(), HasSubstr("is that of a replicate, which is not read"));
 }
 
 std::string hanging(const std::string& in_body, const std::string& above = "",
@@ -122,6 +163,11 @@ TEST(JointNumbers, OfAnMjcfKnowWhatItsActuatorsDoBesideTheirGear) {
   EXPECT_THAT(n.notes, IsEmpty());
   const JointNumbers free = read(driven("<motor joint='a' ctrllimited='false' ctrlrange='-4 4'/>"), "a");
   EXPECT_EQ(free.input_limit, kInfinity);
+  const JointNumbers shared = read("<mujoco><default><general gear='50' ctrlrange='-3 3'/></default>" +
+                                       driven("<motor joint='a'/>").substr(8),
+                                   "a");
+  EXPECT_DOUBLE_EQ(shared.torque_constant, 50.0) << "one default for actuators of every kind";
+  EXPECT_DOUBLE_EQ(shared.input_limit, 3.0);
   EXPECT_EQ(free.lag, 0.0);
 }
 
