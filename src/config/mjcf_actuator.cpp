@@ -92,7 +92,7 @@ void read_servo(const Mjcf& m, const XMLElement& e, const AffineForce& force, do
                     "in units of the joint",
                     length));
   c.goal_filter = is_named(e, "position") ? m.value(e, "timeconst", 0.0) : a.lag;
-  c.saturation = length * limit_of(m, e, "force", a);
+  c.saturation = std::abs(length) * limit_of(m, e, "force", a);
   a.servo = c, a.gain = 1.0, a.lag = 0.0;
   if (m.value(e, "dampratio", 0.0) > 0.0)
     a.notes.push_back(
@@ -141,6 +141,11 @@ Actuation actuation_of(const Mjcf& m, const std::string& joint) {
     else
       read_actuator(m, *e, force, gear, a);
   }
+  if (a.gain < 0.0)
+    a.notes.push_back(
+        fmt::format("not taken: the actuator's {:.4g} per unit of control, as a torque constant "
+                    "is above 0: give u, or x1, the other sign",
+                    a.gain));
   return a;
 }
 

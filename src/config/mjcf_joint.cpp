@@ -129,10 +129,12 @@ void read_actuation(const Mjcf& m, const std::string& joint, JointNumbers& n) {
   n.notes.insert(n.notes.end(), a.notes.begin(), a.notes.end());
 }
 
-void note_spring(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
+void note_untaken(const Mjcf& m, const XMLElement& joint, JointNumbers& n) {
   if (const auto by = m.values(joint, "springdamper"); by.size() == 2 && by[0] > 0.0 && by[1] > 0.0)
     n.notes.emplace_back(
         "not taken: springdamper of the joint, which MuJoCo turns into stiffness and damping: give these");
+  if (m.text(joint, "actuatorfrcrange") != nullptr)
+    n.notes.emplace_back("not taken: actuatorfrcrange of the joint: give it as the actuator's forcerange");
   const double stiffness = m.value(joint, "stiffness", 0.0);
   if (stiffness == 0.0) return;
   n.notes.push_back(fmt::format(
@@ -186,7 +188,7 @@ JointNumbers mjcf_joint(const XMLElement& mujoco, const std::string& file, const
   if (!(n.gap > 0.0)) read_neighbour(m, *joint, n);
   read_gravity(m, load != nullptr ? *load : *joint, n);
   (load != nullptr ? n.load_constant_torque : n.constant_torque) += n.weight;
-  note_spring(m, *joint, n);
+  note_untaken(m, *joint, n);
   return n;
 }
 

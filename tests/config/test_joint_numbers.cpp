@@ -182,6 +182,11 @@ TEST(JointNumbers, OfAnMjcfSayWhatOfItsActuatorsWasNotTaken) {
   EXPECT_THAT(noted("<motor joint='a' ctrlrange='0 4'/>"), HasSubstr("ctrlrange 0 to 4, which is not alike"));
   EXPECT_THAT(noted("<motor joint='a'/><motor joint='a' gear='2'/>"),
               HasSubstr("a further actuator of the joint, a motor"));
+  EXPECT_THAT(noted("<motor joint='a' gear='-3'/>"), HasSubstr("-3 per unit of control"));
+  const JointNumbers turned = read(driven("<position joint='a' kp='8' gear='-2' forcerange='-3 3'/>"), "a");
+  EXPECT_DOUBLE_EQ(turned.servo->gain, 32.0);
+  EXPECT_DOUBLE_EQ(turned.servo->saturation, 6.0);
+  EXPECT_EQ(read(driven("<velocity joint='a' gear='-1'/>"), "a").servo->saturation, kInfinity);
 }
 
 TEST(JointNumbers, OfAUrdfAreItsDynamicsAndTheLinkAboutTheAxis) {
