@@ -60,12 +60,20 @@ double share_of_input(const DiagnosisResult& r, const DetectableEffect& e) {
   return e.torque / r.diagnosis.mismatch.input_torque;
 }
 
+/// " at 24 per turn": a line is foretold at one period, and others take other amounts.
+std::string repeats(const DiagnosisResult& r, const DetectableEffect& e) {
+  for (const NamedValue& v : e.at)
+    if (v.key == "periods_per_turn") return (r.coordinates.rotational() ? " at " : " ") + shape_text(r, v);
+  return "";
+}
+
 std::string sentence(const DiagnosisResult& r) {
   std::vector<std::string> parts;
   for (const char* name : kAskedMost)
     for (const DetectableEffect& e : r.diagnosis.detectable)
       if (e.effect == name && e.can_be_shown() && parts.size() < kTold)
-        parts.push_back(fmt::format("{} of more than {}", readable(e.effect), number_text(r, e.smallest)));
+        parts.push_back(fmt::format("{} of more than {}{}", readable(e.effect), number_text(r, e.smallest),
+                                    repeats(r, e)));
   if (parts.empty()) return "No effect of those that are asked for most could have been named here.";
   std::string text = fmt::format("{}", fmt::join(parts, ", "));
   if (parts.size() > 1) {
@@ -73,7 +81,10 @@ std::string sentence(const DiagnosisResult& r) {
     text = text.substr(0, last - 2) + " and " + parts.back();
   }
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text + " would have been named on these recordings.";
+  text += " would have been named on these recordings.";
+  const double highest = r.diagnosis.looked_at_hz.high;
+  return std::isfinite(highest) ? text + fmt::format(" Nothing above {} Hz was looked for.", rounded(highest))
+                                : text;
 }
 
 /// Those that have a torque to be drawn, the least first.
