@@ -98,9 +98,7 @@ LoopAddition of_law(const std::vector<const LawNumber*>& numbers, std::vector<do
                     std::function<void(Loop&, double)> put) {
   LoopAddition a{std::move(starts), std::move(put), {}};
   for (const LawNumber* n : numbers)
-    a.parts.push_back(
-        {n->key, [n](Loop& l) { l.controller.*n->member = n->absent; }, true,
-         n == &LawNumbers::delay || n == &LawNumbers::goal_delay || n == &LawNumbers::goal_filter});
+    a.parts.push_back({n->key, [n](Loop& l) { l.controller.*n->member = n->absent; }, true});
   return a;
 }
 

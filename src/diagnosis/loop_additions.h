@@ -15,8 +15,7 @@ namespace gapscope::internal::diagnosis {
 struct LoopPart {
   std::string key;
   std::function<void(Loop& loop)> take_out;
-  bool of_law = false;   ///< of the controller itself, not of the drive
-  bool is_late = false;  ///< makes the loop act later, as others do
+  bool of_law = false;  ///< of the controller itself, not of the drive
 };
 
 /// Something that a loop may lack, and the sizes at which it is begun with.

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kWorthHaving = 0.02;  ///< of the error, that an addition takes
 constexpr int kFirstSteps = 8, kTrySteps = 4, kLastSteps = 20;
-constexpr int kRounds = 2;  ///< a limit that was not reached is looked for once more when all else is there
 constexpr std::size_t kTriedOn = 4;      ///< beginnings of additions that come nearest after one step
 constexpr double kBetweenRows = 1000.0;  ///< rate of a firmware's own loop [Hz]
 /// Rates of a firmware's own loop that are tried: whole parts of 2 kHz [Hz]. Turns of another rate slip past
@@ -46,6 +45,13 @@ class LoopBuilder {
         search_(few_, options.threads),
         declared_(declared),
         options_(options) {}
+
+  /// All that they ask for. A limit that was not reached is looked for once more when all else is there.
+  void complete(Loop& loop, std::vector<LoopPart>& parts) const {
+    add_to(loop, parts);
+    settle_rate(loop);
+    thin_out(loop, parts);
+  }
 
   /// At the rows, or between them: once what is missing is there, as an update at the rows alone is late,
   /// too.
@@ -92,18 +98,20 @@ class LoopBuilder {
     }
   }
 
-  /// What makes the loop act later, in place of what was found first to do so.
+  /// What came first may be what stood for another: each is left out once, and what explains most takes its
+  /// place.
   void exchange(Loop& loop, std::vector<LoopPart>& parts) const {
     double least = refine(loop, kFirstSteps);
-    for (LoopPart& part : parts) {
-      if (!part.is_late) continue;
+    for (std::size_t p = 0, count = parts.size(); p < count; ++p) {
       Loop without = loop;
-      part.take_out(without);
-      std::vector<LoopAddition> others = additions_to(without, few_);
-      std::erase_if(others, [](const LoopAddition& a) { return !a.parts.front().is_late; });
+      parts[p].take_out(without);
+      const std::vector<LoopAddition> others = additions_to(without, few_);
       const Try best = best_of(others, {without});
       if (!(best.error < (1.0 - kWorthHaving) * least)) continue;
-      loop = best.loop, least = best.error, part = others[best.which].parts.front();
+      loop = best.loop, least = best.error;
+      const std::vector<LoopPart>& of = others[best.which].parts;
+      parts[p] = of.front();
+      parts.insert(parts.end(), of.begin() + 1, of.end());
     }
   }
 
@@ -119,8 +127,7 @@ class LoopBuilder {
     };
     options_.progress("looking for the turns of the firmware");
     std::vector<Turns> tried;
-    for (const double rate : kRates)
-      tried.push_back({loop, search_}), tried.back().loop.controller.rate = rate;
+    for (const double rate : kRates) tried.push_back({at_rate(rate, loop), search_});
     const std::vector<LoopPlace> free = places_of(loop, declared_, options_);
     const auto nearer = [](const Turns& a, const Turns& b) { return a.error < b.error; };
     for (const std::size_t still : {tried.size(), kLastRates}) {
@@ -197,12 +204,9 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
   options.progress("fitting the closed loop");
   const id::LoopBuilder builder(recordings, controller, options);
   std::vector<id::LoopPart> parts;
-  for (int round = 0; round < id::kRounds; ++round) {
-    builder.add_to(loop, parts);
-    builder.settle_rate(loop);
-    builder.thin_out(loop, parts);
-    builder.exchange(loop, parts);
-  }
+  builder.complete(loop, parts);
+  builder.exchange(loop, parts);
+  builder.complete(loop, parts);
   fit.left_by_law = builder.left_by_law(loop, parts);
   for (const id::LoopPart& part : parts) fit.added.push_back(part.key);
   id::free_timing(loop, controller, recordings.front().dt);
