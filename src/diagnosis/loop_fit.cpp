@@ -8,8 +8,8 @@
 #include "base/require.h"
 #include "diagnosis/few_recordings.h"
 #include "diagnosis/loop_additions.h"
+#include "diagnosis/loop_fitter.h"
 #include "diagnosis/loop_numbers.h"
-#include "diagnosis/loop_search.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -42,7 +42,7 @@ class LoopBuilder {
   LoopBuilder(std::span<const MotorTrace> all, const DriveController& declared, const LoopFitOptions& options)
       : all_(all),
         few_(few_of(all)),
-        search_(few_, options.threads),
+        fitter_(few_, options.threads),
         declared_(declared),
         options_(options) {}
 
@@ -122,19 +122,19 @@ class LoopBuilder {
     if (!options_.rate_is_sought || loop.controller.rate == 0.0) return false;
     struct Turns {
       Loop loop;
-      LoopSearch search;
+      LoopFitter fitter;
       double error = kLost;
     };
     options_.progress("looking for the turns of the firmware");
     std::vector<Turns> tried;
-    for (const double rate : kRates) tried.push_back({at_rate(rate, loop), search_});
+    for (const double rate : kRates) tried.push_back({at_rate(rate, loop), fitter_});
     const std::vector<LoopPlace> free = places_of(loop, declared_, options_);
     const auto nearer = [](const Turns& a, const Turns& b) { return a.error < b.error; };
     for (const std::size_t still : {tried.size(), kLastRates}) {
       for (std::size_t k = 0; k < still; ++k)
         for (int round = 0; round < kTurnRounds; ++round) {
-          tried[k].search.find_phases(tried[k].loop);
-          tried[k].error = tried[k].search.refine(tried[k].loop, free, kTurnSteps);
+          tried[k].fitter.find_phases(tried[k].loop);
+          tried[k].error = tried[k].fitter.refine(tried[k].loop, free, kTurnSteps);
         }
       std::ranges::stable_sort(tried, nearer);
     }
@@ -148,7 +148,7 @@ class LoopBuilder {
     Loop declared = loop;
     for (const LoopPart& part : parts)
       if (part.of_law) part.take_out(declared);
-    return search_.error(loop) / refine(declared, kFirstSteps);
+    return fitter_.error(loop) / refine(declared, kFirstSteps);
   }
 
  private:
@@ -159,7 +159,7 @@ class LoopBuilder {
   };
 
   double refine(Loop& loop, int steps) const {
-    return search_.refine(loop, places_of(loop, declared_, options_), steps);
+    return fitter_.refine(loop, places_of(loop, declared_, options_), steps);
   }
 
   /// Every one gets a step, and those that come nearest the others.
@@ -182,7 +182,7 @@ class LoopBuilder {
 
   std::span<const MotorTrace> all_;
   std::vector<MotorTrace> few_;
-  LoopSearch search_;
+  LoopFitter fitter_;
   const DriveController& declared_;
   const LoopFitOptions& options_;
 };
@@ -195,10 +195,10 @@ namespace id = internal::diagnosis;
 std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const ReferenceModel& model,
                                    const DriveController& controller, const LoopFitOptions& options) {
   GAPSCOPE_REQUIRE(!recordings.empty());
-  id::LoopSearch search(recordings, options.threads);
+  id::LoopFitter fitter(recordings, options.threads);
   id::Loop loop{id::bounded(model), controller};
   LoopFit fit;
-  fit.mae_before = search.error(loop);
+  fit.mae_before = fitter.error(loop);
   if (options.rate_is_sought) loop.controller.rate = id::kBetweenRows;
   if (!(fit.mae_before < id::kLost)) return {};
   options.progress("fitting the closed loop");
@@ -216,9 +216,9 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
     fit.numbers.push_back({fit.added.back(), "Hz", rate, {rate - slip, rate + slip}});
   }
   const std::vector<id::LoopPlace> free = id::places_of(loop, controller, options);
-  search.find_phases(loop);
-  fit.mae_after = search.refine(loop, free, id::kLastSteps);
-  const Eigen::VectorXd spread = search.spread(loop, free);
+  fitter.find_phases(loop);
+  fit.mae_after = fitter.refine(loop, free, id::kLastSteps);
+  const Eigen::VectorXd spread = fitter.spread(loop, free);
   for (std::size_t k = 0; k < free.size(); ++k)
     fit.numbers.push_back(free[k].told(loop, spread(static_cast<Eigen::Index>(k))));
   fit.model = loop.model, fit.controller = loop.controller;

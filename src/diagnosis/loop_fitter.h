@@ -22,10 +22,10 @@ std::vector<double> positions_at(double phase, const Loop& loop, const MotorTrac
 double phase_of(const Loop& loop, const MotorTrace& trace);
 
 /// Whole recordings beside a loop, goal in and position out.
-class LoopSearch {
+class LoopFitter {
  public:
   /// @param threads  0: all cores; the answer is the same for any number
-  LoopSearch(std::span<const MotorTrace> traces, int threads)
+  LoopFitter(std::span<const MotorTrace> traces, int threads)
       : traces_(traces), threads_(threads), phases_(traces.size(), 0.0) {}
 
   /// Of each recording, in place of zero.

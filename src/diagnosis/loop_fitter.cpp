@@ -1,4 +1,4 @@
-#include "diagnosis/loop_search.h"
+#include "diagnosis/loop_fitter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,11 +58,11 @@ double phase_of(const Loop& loop, const MotorTrace& trace) {
   return phase;
 }
 
-void LoopSearch::find_phases(const Loop& loop) {
+void LoopFitter::find_phases(const Loop& loop) {
   parallel_for(traces_.size(), threads_, [&](std::size_t r) { phases_[r] = phase_of(loop, traces_[r]); });
 }
 
-double LoopSearch::error(const Loop& loop) const {
+double LoopFitter::error(const Loop& loop) const {
   std::vector<double> of(traces_.size());
   parallel_for(traces_.size(), threads_,
                [&](std::size_t r) { of[r] = mean_error(traces_[r], positions(loop, r)); });
@@ -71,7 +71,7 @@ double LoopSearch::error(const Loop& loop) const {
   return sum / static_cast<double>(of.size());
 }
 
-double LoopSearch::refine(Loop& loop, const std::vector<LoopPlace>& free, int steps) const {
+double LoopFitter::refine(Loop& loop, const std::vector<LoopPlace>& free, int steps) const {
   double least = error(loop);
   double damping = 1e-2;
   for (int step = 0; step < steps && !free.empty() && least < kLost; ++step) {
@@ -96,7 +96,7 @@ double LoopSearch::refine(Loop& loop, const std::vector<LoopPlace>& free, int st
   return least;
 }
 
-Eigen::VectorXd LoopSearch::spread(const Loop& loop, const std::vector<LoopPlace>& free) const {
+Eigen::VectorXd LoopFitter::spread(const Loop& loop, const std::vector<LoopPlace>& free) const {
   const Normal normal = normal_at(loop, free);
   const auto n = normal.slope.size(), stretches = normal.slopes.cols();
   if (stretches <= n) return Eigen::VectorXd::Constant(n, kInfinity);
@@ -109,15 +109,15 @@ Eigen::VectorXd LoopSearch::spread(const Loop& loop, const std::vector<LoopPlace
   return (normal.square.diagonal().array() > 0.0).select(half, kInfinity);  // what nothing depends on
 }
 
-double LoopSearch::turn(const Loop& loop) const {
+double LoopFitter::turn(const Loop& loop) const {
   return loop.controller.rate > 0.0 ? 1.0 / loop.controller.rate : traces_.front().dt;
 }
 
-std::vector<double> LoopSearch::positions(const Loop& loop, std::size_t r) const {
+std::vector<double> LoopFitter::positions(const Loop& loop, std::size_t r) const {
   return positions_at(phases_[r], loop, traces_[r]);
 }
 
-LoopSearch::Normal LoopSearch::normal_at(const Loop& loop, const std::vector<LoopPlace>& free) const {
+LoopFitter::Normal LoopFitter::normal_at(const Loop& loop, const std::vector<LoopPlace>& free) const {
   const std::size_t n = free.size();
   std::vector<Loop> moved(n, loop);
   std::vector<double> by(n);
@@ -134,7 +134,7 @@ LoopSearch::Normal LoopSearch::normal_at(const Loop& loop, const std::vector<Loo
   return sum;
 }
 
-LoopSearch::Normal LoopSearch::normal_of(const Loop& loop, const std::vector<Loop>& moved,
+LoopFitter::Normal LoopFitter::normal_of(const Loop& loop, const std::vector<Loop>& moved,
                                          const std::vector<double>& by, std::size_t r) const {
   const MotorTrace& trace = traces_[r];
   const auto rows = static_cast<Eigen::Index>(trace.size()), n = static_cast<Eigen::Index>(moved.size());
