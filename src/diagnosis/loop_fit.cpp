@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "base/require.h"
+#include "base/text.h"
 #include "diagnosis/few_recordings.h"
 #include "diagnosis/loop_additions.h"
 #include "diagnosis/loop_fitter.h"
 #include "diagnosis/loop_numbers.h"
+#include "recording/supply.h"
 
 namespace gapscope {
 namespace internal::diagnosis {
@@ -221,6 +223,9 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
   const Eigen::VectorXd spread = fitter.spread(loop, free);
   for (std::size_t k = 0; k < free.size(); ++k)
     fit.numbers.push_back(free[k].told(loop, spread(static_cast<Eigen::Index>(k))));
+  if (is_supplied(*recordings.front().command))
+    for (LoopNumber& n : fit.numbers)
+      if (n.key.starts_with("controller.")) n.unit = replaced(n.unit, "unit of u", "duty");
   fit.model = loop.model, fit.controller = loop.controller;
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     fit.model.parameters[i].low = model.parameters[i].low;

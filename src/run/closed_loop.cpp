@@ -108,7 +108,8 @@ bool has_another_law(const LoopFit& loop) { return loop.left_by_law < kWorthAnot
 void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
                       Diagnosis& d) {
   if (!loop || !d.controller) return;
-  const std::vector<MotorTrace> traces = traces_of(recordings.held_out.recordings);
+  const std::vector<Recording>& held_out = recordings.held_out.recordings;
+  const std::vector<MotorTrace> traces = traces_of(held_out.empty() ? recordings.train.recordings : held_out);
   const auto runs = [&](const ReferenceModel& model, const DriveController& controller) {
     std::vector<HeldOutRun> told;
     for (const MotorTrace& trace : traces) told.push_back(run_in_loop(trace, model, controller));
@@ -129,7 +130,7 @@ void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional
     d.closed_loop->recordings.push_back({after[r].file, before[r].rmse, after[r].rmse});
   }
   d.closed_loop->before = rms_of(before), d.closed_loop->after = rms_of(after);
-  d.held_out_runs = std::move(after);
+  if (!held_out.empty()) d.held_out_runs = std::move(after);
 }
 
 }  // namespace gapscope::internal::run

@@ -23,7 +23,8 @@ std::optional<LoopFit> fitted_loop(const Configuration& configuration, const Dia
 bool has_another_law(const LoopFit& loop);
 
 /// Gives the diagnosis the whole held-out recordings beside the drive in its loop: beside the loop's own fit
-/// where that follows them nearer than the model that the diagnosis has come to, else beside this.
+/// where that follows them nearer than the model that the diagnosis has come to, else beside this. Where
+/// nothing is held out what was fitted stands for it.
 void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional<LoopFit>& loop,
                       Diagnosis& diagnosis);
 

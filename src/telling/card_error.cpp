@@ -109,7 +109,7 @@ Told closed_loop(const Diagnosis& d, Coordinates coordinates) {
 
 /// Of the model that is fitted in the loop, over what was held out.
 Told fitted_loop(const Diagnosis& d) {
-  if (!d.loop) return {};
+  if (!d.loop || d.held_out_runs.empty()) return {};
   double sum = 0.0;
   const HeldOutRun* worst = &d.held_out_runs.front();
   for (const HeldOutRun& run : d.held_out_runs) {

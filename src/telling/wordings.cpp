@@ -258,8 +258,7 @@ constexpr Wording kWordings[] = {
     {"share.torque", "brings it from {before#} to {after}"},
     {"helps.stopped", "Not known: the search was stopped before its end."},
     {"helps.loop",
-     "What the closed loop tells brings its error in position[ from {before}] to {after} rms, over the whole of what "
-     "was held out."},
+     "What the closed loop tells brings its error in position[ from {before}] to {after} rms over whole recordings."},
     {"helps.none", "Nothing in the catalogue helps."},
     {"helps.not_established", "Nothing that these recordings establish.",
      "Nothing that these recordings establish; `fitted.yaml` has no addition."},
