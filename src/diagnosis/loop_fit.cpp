@@ -27,9 +27,9 @@ constexpr double kRates[] = {2000.0, kBetweenRows, 500.0, 400.0, 1000.0 / 3.0, 2
 /// Of the error, that the next best rate leaves more where the rate is told. Of 15 servos it told 12, one of
 /// them wrong at 2 %; half tells a wrong one, double leaves out a third of the right ones.
 constexpr double kTellsRate = 0.05;
-constexpr int kTurnRounds = 3;         ///< phases and numbers in turn, as each waits for the other
+constexpr int kTurnRounds = 3;         ///< of phases and numbers with each rate
 constexpr int kTurnSteps = 2;          ///< of the numbers' fit in each
-constexpr std::size_t kLastRates = 2;  ///< that get as many rounds again
+constexpr std::size_t kLastRates = 3;  ///< that get as many rounds again, and as many without delays
 constexpr double kSlips = 0.25;  ///< of a turn, by which a rate that is off slips in a recording at least
 
 double longest(std::span<const MotorTrace> recordings) {
@@ -118,31 +118,28 @@ class LoopBuilder {
   }
 
   /// The rate of the firmware's own turns: goals take effect at turns alone, which shows in a recording that
-  /// has one phase from its first row to its last.
+  /// has one phase from its first row to its last. With free delays, or none: a goal that arrives at a turn
+  /// is taken up in it, or with the least delay a turn later.
+  /// @param bare  the loop without the delays that were left free
   /// @returns whether the recordings tell it from the others that are tried
-  bool settle_turns(Loop& loop) const {
+  bool settle_turns(Loop& loop, const Loop& bare) const {
     if (!options_.rate_is_sought || loop.controller.rate == 0.0) return false;
-    struct Turns {
-      Loop loop;
-      LoopFitter fitter;
-      double error = kLost;
-    };
     options_.progress("looking for the turns of the firmware");
     std::vector<Turns> tried;
-    for (const double rate : kRates) tried.push_back({at_rate(rate, loop), fitter_});
-    const std::vector<LoopPlace> free = places_of(loop, declared_, options_);
+    for (const double rate : kRates) tried.push_back(turns_of(at_rate(rate, loop)));
     const auto nearer = [](const Turns& a, const Turns& b) { return a.error < b.error; };
-    for (const std::size_t still : {tried.size(), kLastRates}) {
-      for (std::size_t k = 0; k < still; ++k)
-        for (int round = 0; round < kTurnRounds; ++round) {
-          tried[k].fitter.find_phases(tried[k].loop);
-          tried[k].error = tried[k].fitter.refine(tried[k].loop, free, kTurnSteps);
-        }
-      std::ranges::stable_sort(tried, nearer);
+    std::ranges::stable_sort(tried, nearer);
+    for (std::size_t k = 0; k < kLastRates; ++k) {
+      const double rate = tried[k].loop.controller.rate;
+      tried.push_back(turns_of(at_rate(rate, bare)));
+      tried[k] = turns_of(tried[k].loop);
     }
+    std::ranges::stable_sort(tried, nearer);
     loop = tried[0].loop;
+    const auto other = std::ranges::find_if(
+        tried, [&](const Turns& t) { return t.loop.controller.rate != loop.controller.rate; });
     const double rounding = 0.25 * few_.front().quantum;  // of a count, in the mean
-    return std::max(tried[0].error, rounding) < (1.0 - kTellsRate) * std::max(tried[1].error, rounding);
+    return std::max(tried[0].error, rounding) < (1.0 - kTellsRate) * std::max(other->error, rounding);
   }
 
   /// Share of the error that its law leaves, over the law that was declared.
@@ -162,6 +159,22 @@ class LoopBuilder {
 
   double refine(Loop& loop, int steps) const {
     return fitter_.refine(loop, places_of(loop, declared_, options_), steps);
+  }
+
+  struct Turns {
+    Loop loop;
+    double error;
+  };
+
+  /// Phases and numbers in turn, as each waits for the other.
+  Turns turns_of(Loop loop) const {
+    LoopFitter fitter = fitter_;
+    double error = kLost;
+    for (int round = 0; round < kTurnRounds; ++round) {
+      fitter.find_phases(loop);
+      error = fitter.refine(loop, places_of(loop, declared_, options_), kTurnSteps);
+    }
+    return {loop, error};
   }
 
   /// Every one gets a step, and those that come nearest the others.
@@ -211,8 +224,9 @@ std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const
   builder.complete(loop, parts);
   fit.left_by_law = builder.left_by_law(loop, parts);
   for (const id::LoopPart& part : parts) fit.added.push_back(part.key);
+  const id::Loop bare = loop;
   id::free_timing(loop, controller, recordings.front().dt);
-  if (builder.settle_turns(loop)) {
+  if (builder.settle_turns(loop, bare)) {
     const double rate = loop.controller.rate, slip = id::kSlips / id::longest(recordings);
     fit.added.push_back("controller.rate");
     fit.numbers.push_back({fit.added.back(), "Hz", rate, {rate - slip, rate + slip}});

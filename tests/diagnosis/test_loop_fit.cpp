@@ -125,7 +125,8 @@ TEST(LoopFit, TellsTheRateAtWhichAFirmwareActs) {
   SimulationOptions options;
   options.rate = 90.0;
   std::vector<double> goal;
-  for (int i = 0; i < 360; ++i) goal.push_back(1.2 * std::sin(0.06 * i) + 0.6 * (i / 90));
+  for (int i = 0; i < 360; ++i)
+    goal.push_back(std::min(1.0, i / 60.0) * 1.2 * std::sin(0.06 * i) + 0.6 * (i / 90));
   Recording log = simulate_under_controller(servo(0.5), law, goal, options);
   for (double& x : log.x1) x = 1.5e-3 * std::round(x / 1.5e-3);
   log.quantum = 1.5e-3;
