@@ -13,8 +13,8 @@ namespace gapscope {
 SharedUnit::SharedUnit(double first, const std::string& unit) : unit_(unit.empty() ? "" : " " + unit) {
   static constexpr std::array kPrefixes = {"", "m", "µ", "n"};
   const double size = std::abs(first);
-  if (unit.empty() || !(size > 0.0) || !std::isfinite(size) || unit.starts_with("unit"))
-    return;  // no "milliunit of u"
+  if (unit.empty() || !(size > 0.0) || !std::isfinite(size) || unit.starts_with("unit") || unit == "duty")
+    return;  // no "milliunit of u", no "mduty"
   const double thousands = std::clamp(std::ceil(-std::log10(size) / 3.0 - 1e-12), 0.0, 3.0);
   factor_ = std::pow(10.0, 3.0 * thousands);
   unit_ = std::string(" ") + kPrefixes[static_cast<std::size_t>(thousands)] + unit;
