@@ -130,7 +130,8 @@ void tell_closed_loop(const DiagnosisRecordings& recordings, const std::optional
     d.closed_loop->recordings.push_back({after[r].file, before[r].rmse, after[r].rmse});
   }
   d.closed_loop->before = rms_of(before), d.closed_loop->after = rms_of(after);
-  if (!held_out.empty()) d.held_out_runs = std::move(after);
+  if (held_out.empty()) after.clear();
+  d.held_out_runs = std::move(after);
 }
 
 }  // namespace gapscope::internal::run

@@ -273,10 +273,10 @@ Told cause_of(const CardFacts& f) {
     Told open = open_causes(f);
     told = causes;
     told.insert(rests_on_open_cause(d) ? told.begin() : told.end(), open.begin(), open.end());
-    if (told.empty() && !in_loop.empty())
-      told = {{"cause.loop"}};
+    if (told.empty() && d.stopped)
+      told = {{"cause.stopped"}};
     else if (told.empty())
-      told = d.stopped ? Told{{"cause.stopped"}} : unknown(f);
+      told = in_loop.empty() ? unknown(f) : Told{{"cause.loop"}};
     if (causes.empty() && in_loop.empty() && !has_code(told, "cause.stopped") && is_likely_outside(d))
       told.push_back({"cause.outside", {per_cent("p", 100.0 * d.outside_probability)}});
     if (ended_early(d)) told.push_back({"cause.exhausted"});
