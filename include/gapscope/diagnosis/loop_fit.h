@@ -48,10 +48,10 @@ struct LoopFitOptions {
 /// profile of the goal, its filter and delay, a gain that falls with the error, a delay of the output, the
 /// damping while it is switched off; dry friction, friction in proportion to the torque of the gears,
 /// Stribeck friction; weight of the arm itself.
-/// Where the rate is sought, the last fit has the rate of the firmware's own turns that leaves clearly less
-/// than the others do, and for each recording the phase of its turns. Intervals are those of clustered
-/// errors: what is left is taken as alike within a second and as independent beyond, whatever its law (Liang
-/// and Zeger 1986), with Student's t of as many stretches.
+/// Where the rate is sought, the last fit has that of 200 to 2000 Hz which leaves least, with the phase of
+/// each recording's turns; `added` has it where it leaves clearly less than the others. Intervals are those
+/// of clustered errors: what is left is taken as alike within a second and as independent beyond, whatever
+/// its law (Liang and Zeger 1986), with Student's t of as many stretches.
 /// @param recordings  each with its command, from its first row on
 /// @returns nothing where the motion diverges from where the model stands
 std::optional<LoopFit> fit_in_loop(std::span<const MotorTrace> recordings, const ReferenceModel& model,
