@@ -64,7 +64,9 @@ std::optional<Finding> unit_declared_for_another(double counts) {
   };
   constexpr Mistaken kMistaken[] = {{360.0 / kTurn, "radians", "degrees", "rad"},
                                     {1.0 / 360.0, "degrees", "turns", "deg"},
-                                    {1.0 / kTurn, "radians", "turns", "rad"}};
+                                    {1.0 / kTurn, "radians", "turns", "rad"},
+                                    {1e-3, "milliradians", "radians", "mrad"},
+                                    {kTurn / 21600.0, "arc minutes", "radians", "arcmin"}};
   for (const Mistaken& k : kMistaken)
     if (is_power_of_two(counts / k.times))
       return wrong_unit(fmt::format("x1 steps by 1/{:.4g} of a turn, and by 1/{:.0f} were it {:.3g} times as "
@@ -133,9 +135,13 @@ Finding check_position_unit(const Material& m, RecordingFacts&) {
   if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q) && is_power_of_two(1.0 / q))
     return wrong_unit(fmt::format("x1 steps by 1/{:.0f}: turns?", 1.0 / q),
                       "declare it, recording: units: {position: rev}");
-  if (m.coordinates.rotational() && q > 0.0 && !is_usual(turn / q))
+  // Steps of a position in another unit may be those of a speed: an encoder's by the time between two rows.
+  const bool differenced = q > 0.0 && is_power_of_two(turn / q / m.recording.dt);
+  if (m.coordinates.rotational() && q > 0.0 && !differenced && !is_usual(turn / q))
     if (auto other = unit_declared_for_another(turn / q)) return *std::move(other);
   if (auto speed_in_its_place = seeming_position(m)) return *std::move(speed_in_its_place);
+  if (m.coordinates.rotational() && differenced && !is_usual(turn / q))
+    if (auto other = unit_declared_for_another(turn / q)) return *std::move(other);
   const std::string speeds = "up to " + m.length(speed) + "/s";
   if (speed > limit)
     return wrong_unit(speeds + fmt::format(", more than {:.0f}", limit),
