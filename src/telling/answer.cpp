@@ -117,7 +117,8 @@ Said as_printed(const Findings& f, const FittedParameter* gap) {
 Said read(const Findings& f) {
   const FittedParameter* gap = told_gap(f);
   if (f.model_free->method == GapMethod::kLiteral) return as_printed(f, gap);
-  if (gap != nullptr && f.agree) return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
+  if (gap != nullptr && f.agree && width(gap->ci95) < gap->value)  // a wider one agrees with anything
+    return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
   const bool rejected = f.reference != nullptr && f.reference->rejected();
   Said a = from_model_free(f, rejected ? AnswerTrust::kLimited : trust_in(*f.model_free));
   add(a, without_model(f));

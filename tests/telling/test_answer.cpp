@@ -107,6 +107,14 @@ TEST(Answer, OfTwoThatAgreeIsTheSharperOneThatIsGood) {
       << "a limited model goes behind any reading";
 }
 
+TEST(Answer, AFitWhoseIntervalAgreesWithAnythingIsNotSaidToAgree) {
+  const GapEstimate g = reading(0.019, 2e-4);
+  const FitSummary wide = fitted(FitTrust::kLimited, 0.012, 9e-3);
+  const Answer a = of(&g, &wide, true);
+  EXPECT_EQ(a.from, AnswerSource::kModelFree);
+  EXPECT_FALSE(a.says("gap.reference.agrees"));
+}
+
 TEST(Answer, OfTwoThatContradictEachOtherIsLimitedAndNamesBoth) {
   const GapEstimate g = reading(0.019, 2e-4);
   const FitSummary good = fitted(FitTrust::kGood, 0.025, 2.1e-4),
