@@ -83,7 +83,17 @@ void take_known(ReferenceModel& model, const view::Budget& budget, const view::D
   }
 }
 
-void add_once(view::Model& model, const view::Law& law, double shape) {
+view::Shape shape_in(const ReferenceModel& model, const ModelEffect& effect, const view::Law& law) {
+  view::Shape shape = effect.parameters[static_cast<std::size_t>(law.shape_at)].value;
+  if (law.sign != view::Sign::kShareOfInertia) return shape;
+  const auto& p = effect.parameters;  // as resonance_values() writes them
+  const double inertia = p[0].value * model.parameters[place::kMotorInertia].value;
+  shape.damping = p[2].value;
+  if (inertia > 0.0) shape.drag = p[3].value / inertia, shape.rub = p[4].value / inertia;
+  return shape;
+}
+
+void add_once(view::Model& model, const view::Law& law, const view::Shape& shape) {
   if (view::find_term(model, law.name) == nullptr)
     model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
 }
@@ -97,6 +107,18 @@ view::Term contact_of(const ReferenceModel& model, const view::SplitRecordings& 
     for (const view::StampedTrace& t : *traces)
       for (const double x : t.x) low = std::min(low, x), high = std::max(high, x);
   return view::contact_term(low, high);
+}
+
+/// A load on a spring has a part of what the balance has of the whole drive.
+void leave_to_spring(const view::Term& spring, ReferenceModel& model) {
+  const auto take = [](ParameterSetting& p, double part) {
+    if (p.estimate) p.value = std::max(p.value - part, kRule.faded * p.value);
+  };
+  const double inertia = spring.theta[0];
+  take(model.parameters[place::kMotorInertia], inertia);
+  take(model.parameters[place::kMotorDamping], inertia * spring.shape.drag);
+  for (ModelEffect& e : model.effects)
+    if (e.entry == find_effect("motor_coulomb_friction")) take(e.parameters[0], inertia * spring.shape.rub);
 }
 
 }  // namespace
@@ -125,7 +147,7 @@ view::Model known_terms(const ReferenceModel& model, const view::SplitRecordings
     const EffectEntry* contained = contained_effect(*e.entry);
     if (contained != nullptr && law->kind == view::Kind::kOnTorque)  // of which the law says nothing
       add_once(known, view::law(contained->name), kNaN);
-    const double shape = law->shape_at < 0 ? shapes.front() : e.parameters[law->shape_at].value;
+    const view::Shape shape = law->shape_at < 0 ? view::Shape(shapes.front()) : shape_in(model, e, *law);
     known.push_back({law, shape, Eigen::VectorXd::Zero(law->columns)});
   }
   return known;
@@ -160,6 +182,7 @@ ReferenceModel with_terms(ReferenceModel model, const view::Budget& budget) {
                                     term.law->values(term.theta, term.shape, drive), budget.scales.turns));
   }
   bound_static_friction(model);
+  if (const view::Term* spring = view::spring_of(budget.addable)) leave_to_spring(*spring, model);
   return model;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "torque_view/search.h"
 
 namespace gapscope::internal::torque_view {
 namespace {
@@ -14,14 +15,23 @@ struct Products {
 };
 
 /// What a drive mostly has, and what is seen to repeat: so that none of it, missing, passes for inertia.
-Model probe_model(const ShaftTurns& turns, std::span<const double> lines) {
+Model probe_model(const Scales& known) {
   Model model = nominal_model();
   for (const char* name : {"motor_coulomb_friction", "friction_asymmetry"})
     model.push_back({&law(name), kNaN, Eigen::VectorXd::Zero(law(name).columns)});
-  if (std::isfinite(turns.load))
-    model.push_back({&law("load_unbalance"), turns.load, Eigen::VectorXd::Zero(2)});
-  for (const double k : lines) model.push_back({&law("cogging_torque"), k, Eigen::VectorXd::Zero(2)});
+  if (std::isfinite(known.turns.load))
+    model.push_back({&law("load_unbalance"), known.turns.load, Eigen::VectorXd::Zero(2)});
+  for (const double k : known.lines) model.push_back({&law("cogging_torque"), k, Eigen::VectorXd::Zero(2)});
   return model;
+}
+
+/// A load on a spring weighs another thing in every octave.
+void add_spring(Rows& rows, Model& model, const Scales& known, const TorqueViewOptions& options) {
+  model = fitted(rows, std::move(model));
+  Projection beside(rows, model);
+  const Law& spring = law("resonance");
+  const BestShape best = best_shape(rows, beside, spring, scales_of(rows, known.turns, known.held_output));
+  if (best.gain >= options.least_share) model.push_back({&spring, best.shape, Eigen::VectorXd::Zero(1)});
 }
 
 Products products_of(Rows& rows, const Model& model) {
@@ -80,8 +90,8 @@ void read_octaves(FrequencyBand& band, std::vector<Rows>& rows, const std::vecto
 
 }  // namespace
 
-FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
-                          std::span<const double> lines, const TorqueViewOptions& options, int threads) {
+FrequencyBand choose_band(std::span<const StampedTrace> traces, const Scales& known,
+                          const TorqueViewOptions& options, int threads) {
   FrequencyBand band;
   const std::vector<double> hz =
       options.given_hz > 0.0 ? std::vector<double>{options.given_hz} : tops(traces, options);
@@ -90,12 +100,13 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns
   parallel_for(hz.size(), threads, [&](std::size_t i) { rows[i] = stacked(traces, hz[i], false, options); });
   for (const BandRecord& r : rows.front().records()) band.free_constant |= is_constant_speed(r, options);
 
-  const Model probe = probe_model(turns, lines);
+  Model probe = probe_model(known);
   read_octaves(band, rows, hz, traces, fitted(rows.front(), probe));
   std::size_t quiet = 0;
   for (std::size_t i = 0; i < hz.size(); ++i)
     if (band.octaves[i].noise <= options.most_noise) quiet = i;  // at one speed those below may be empty
   band.octaves.clear();
+  add_spring(rows[quiet], probe, known, options);
   read_octaves(band, rows, hz, traces, fitted(rows[quiet], probe));
 
   double power = 0.0, weighted = 0.0;  // of the octaves below that have a say

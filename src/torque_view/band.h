@@ -28,8 +28,8 @@ struct FrequencyBand {
   bool free_constant = false;  ///< a recording has one speed
   std::vector<Octave> octaves;
 };
-/// @param lines  cycles per 2π of what is known to repeat
-FrequencyBand choose_band(std::span<const StampedTrace> traces, const ShaftTurns& turns,
-                          std::span<const double> lines, const TorqueViewOptions& options, int threads = 1);
+/// @param known  turns, whether the output is held, and cycles per 2π of what is known to repeat
+FrequencyBand choose_band(std::span<const StampedTrace> traces, const Scales& known,
+                          const TorqueViewOptions& options, int threads = 1);
 
 }  // namespace gapscope::internal::torque_view

@@ -22,7 +22,7 @@ void delay(StampedTrace& trace, double later) {
   }
 }
 
-void implant_into(std::vector<StampedTrace>& traces, const Budget& budget, const Law& law, double shape,
+void implant_into(std::vector<StampedTrace>& traces, const Budget& budget, const Law& law, const Shape& shape,
                   const Eigen::VectorXd& theta, const TorqueViewOptions& options) {
   if (law.name == std::string_view("input_delay")) {
     for (StampedTrace& trace : traces) delay(trace, theta[0]);
@@ -79,7 +79,7 @@ void correct(const SplitRecordings& data, const Budget& budget, LeastNamed& leas
 
 }  // namespace
 
-bool ladder_adds(SplitRecordings data, const Budget& budget, const Law& law, double shape,
+bool ladder_adds(SplitRecordings data, const Budget& budget, const Law& law, const Shape& shape,
                  const Eigen::VectorXd& theta, TorqueViewOptions options) {
   implant_into(data.fit, budget, law, shape, theta, options);
   implant_into(data.judge, budget, law, shape, theta, options);

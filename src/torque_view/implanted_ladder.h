@@ -6,7 +6,7 @@ namespace gapscope::internal::torque_view {
 
 /// Whether the ladder, from the nominal model on, adds a law to what the recordings would be if the drive had
 /// it at this shape and amount, beside all that it has.
-bool ladder_adds(SplitRecordings data, const Budget& budget, const Law& law, double shape,
+bool ladder_adds(SplitRecordings data, const Budget& budget, const Law& law, const Shape& shape,
                  const Eigen::VectorXd& theta, TorqueViewOptions options = {});
 
 /// The foretold amounts, each corrected by such implants of half of it, it and twice of it, of less while the

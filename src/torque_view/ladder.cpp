@@ -167,7 +167,9 @@ void take_line(Bench& bench, const Model& model) {
 
 Budget error_budget(const SplitRecordings& data, const TorqueViewOptions& options) {
   Budget budget;
-  budget.band = choose_band(data.fit, data.turns, data.lines, options, data.threads);
+  Scales known;
+  known.turns = data.turns, known.held_output = data.held_output, known.lines = data.lines;
+  budget.band = choose_band(data.fit, known, options, data.threads);
   if (std::isnan(budget.band.hz)) return budget;
   Bench bench = bench_of(data, budget.band, options);
   budget.scales = bench.scales;

@@ -12,7 +12,7 @@ namespace gapscope::internal::torque_view {
 /// What of the budget one law of the last model carries.
 struct Share {
   const Law* law = nullptr;
-  double shape = kNaN;
+  Shape shape;
   Eigen::VectorXd theta;
   Evidence alone, last;  ///< on top of the nominal model; taken out of the full one
   Visibility seen;

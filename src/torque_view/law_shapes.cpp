@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset
 
+constexpr double kSpringStep = 1.06;  ///< of frequencies: two dampings of the lightest that is looked for [-]
+
 std::vector<double> geometric(double from, double to, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, i / (count - 1.0)));
@@ -51,7 +53,9 @@ std::vector<double> step_times(const Scales& s) {
 }
 std::vector<double> spans(const Scales& s) { return geometric(0.1 * s.duration, 3.0 * s.duration, 4); }
 std::vector<double> resonances(const Scales& s) {
-  return geometric(2.0, std::max(4.0, std::min(80.0, 2.0 * s.hz)), 12);
+  if (!shows_levels(s)) return {};
+  const double top = std::max(4.0, std::min(80.0, 2.0 * s.hz));
+  return geometric(2.0, top, 2 + static_cast<int>(std::log(top / 2.0) / std::log(kSpringStep)));
 }
 std::vector<double> found_line(const Scales& s) { return only_if(std::isfinite(s.line), s.line); }
 std::vector<double> found_ripple(const Scales& s) { return only_if(std::isfinite(s.ripple), s.ripple); }

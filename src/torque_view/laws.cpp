@@ -12,7 +12,10 @@ namespace {
 
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-constexpr double kDamping = 0.1;  ///< of the linear resonance [-]
+constexpr double kSameStep = 1e-6;  ///< of a time step: what differs by less is one [-]
+constexpr double kOver = 1e-4;      ///< of a starting swing: the rest of it is nothing [-]
+constexpr double kLeastSwing =
+    0.01;  ///< square of the frequency of a load that hardly swings [of the undamped]
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< of the top speed [-]
 constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
 constexpr int kHarmonics = 3;      ///< of the free position curve
@@ -24,24 +27,24 @@ void each(const Samples& s, Columns g, int column, Value value) {
   for (std::size_t i = 0; i < s.t.size(); ++i) g(static_cast<Eigen::Index>(i), column) = value(i);
 }
 
-void inertia(const Samples& s, double, Columns g) {
+void inertia(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return s.a[i]; });
 }
-void viscous(const Samples& s, double, Columns g) {
+void viscous(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return s.w[i]; });
 }
-void constant(const Samples&, double, Columns g) { g.col(0).setOnes(); }
-void coulomb(const Samples& s, double, Columns g) {
+void constant(const Samples&, const Shape&, Columns g) { g.col(0).setOnes(); }
+void coulomb(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return direction(s.w[i]); });
 }
 
 /// Fc (1 + a sign w) sign w + d (1 + b sign w) w: beside Coulomb and viscous friction a constant and |w|.
-void asymmetry(const Samples& s, double, Columns g) {
+void asymmetry(const Samples& s, const Shape&, Columns g) {
   g.col(0).setOnes();
   each(s, g, 1, [&](auto i) { return std::abs(s.w[i]); });
 }
 
-void stribeck(const Samples& s, double speed, Columns g) {
+void stribeck(const Samples& s, const Shape& speed, Columns g) {
   each(s, g, 0, [&](auto i) {
     const double r = s.w[i] / speed;
     return direction(s.w[i]) * std::exp(-r * r);
@@ -50,7 +53,7 @@ void stribeck(const Samples& s, double speed, Columns g) {
 
 /// What Dahl's bristle bears less than Coulomb friction of its level while it bends: z − σ, between the
 /// samples z(x) = σ + (z0 − σ) exp(−|x − x0|/length), σ = sign w.
-void presliding(const Samples& s, double length, Columns g) {
+void presliding(const Samples& s, const Shape& length, Columns g) {
   double z = 0.0;
   each(s, g, 0, [&](auto i) {
     const double move = i > 0 ? 0.5 * (s.w[i - 1] + s.w[i]) * (s.t[i] - s.t[i - 1]) : 0.0;
@@ -60,43 +63,43 @@ void presliding(const Samples& s, double length, Columns g) {
   });
 }
 
-void drag(const Samples& s, double, Columns g) {
+void drag(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return s.w[i] * std::abs(s.w[i]); });
 }
 
-void load_friction(const Samples& s, double, Columns g) {
+void load_friction(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return std::abs(s.tau_load[i]) * direction(s.w[i]); });
 }
 
-void sines(const Samples& s, double k, Columns g) {
+void sines(const Samples& s, const Shape& k, Columns g) {
   each(s, g, 0, [&](auto i) { return std::sin(k * s.x[i]); });
   each(s, g, 1, [&](auto i) { return std::cos(k * s.x[i]); });
 }
 
-void harmonics(const Samples& s, double k, Columns g) {
+void harmonics(const Samples& s, const Shape& k, Columns g) {
   for (int h = 1; h <= kHarmonics; ++h) {
     each(s, g, 2 * h - 2, [&](auto i) { return std::sin(h * k * s.x[i]); });
     each(s, g, 2 * h - 1, [&](auto i) { return std::cos(h * k * s.x[i]); });
   }
 }
 
-void ripple(const Samples& s, double k, Columns g) {
+void ripple(const Samples& s, const Shape& k, Columns g) {
   each(s, g, 0, [&](auto i) { return s.tau[i] * std::sin(k * s.x[i]); });
   each(s, g, 1, [&](auto i) { return s.tau[i] * std::cos(k * s.x[i]); });
 }
 
 /// The harmonic h of a line at k, of the position or of the model's torque over it.
 template <int h>
-void sines_of(const Samples& s, double k, Columns g) {
+void sines_of(const Samples& s, const Shape& k, Columns g) {
   sines(s, h * k, g);
 }
 template <int h>
-void ripple_of(const Samples& s, double k, Columns g) {
+void ripple_of(const Samples& s, const Shape& k, Columns g) {
   ripple(s, h * k, g);
 }
 
 /// The encoder says x + e sin(kx + φ): J and d act on less than what is measured.
-void eccentricity(const Samples& s, double k, Columns g) {
+void eccentricity(const Samples& s, const Shape& k, Columns g) {
   each(s, g, 0, [&](auto i) {
     const double sine = std::sin(k * s.x[i]), cosine = k * std::cos(k * s.x[i]);
     return s.inertia * (k * k * sine * s.w[i] * s.w[i] - cosine * s.a[i]) - s.viscous * cosine * s.w[i];
@@ -107,40 +110,67 @@ void eccentricity(const Samples& s, double k, Columns g) {
   });
 }
 
-void drift(const Samples& s, double span, Columns g) {
+void drift(const Samples& s, const Shape& span, Columns g) {
   each(s, g, 0, [&](auto i) { return s.w[i] * -std::expm1(-s.t[i] / span); });
 }
 
-void inertia_step(const Samples& s, double time, Columns g) {
+void inertia_step(const Samples& s, const Shape& time, Columns g) {
   each(s, g, 0, [&](auto i) { return s.t[i] > time ? s.a[i] : 0.0; });
 }
 
-/// A load behind a spring follows as R(s) = ω²/(s² + 2 ζ ω s + ω²): what its inertia feels is R a − a away
-/// from the rigid one. Stepped in closed form under the acceleration at the middle of each interval.
-void resonance(const Samples& s, double hz, Columns g) {
-  const double omega = 2.0 * kPi * hz, decay = kDamping * omega;
-  const double damped = omega * std::sqrt(1.0 - kDamping * kDamping);
-  double y = s.a[0], rate = 0.0, last = -1.0, e = 1.0, c = 1.0, q = 0.0;
+/// How a load on its spring comes to rest: e^(−decay t) at the frequency damped, undamped at omega.
+struct Swing {
+  double omega, decay, damped;
+  explicit Swing(const Shape& spring)
+      : omega(2.0 * kPi * spring.at),
+        decay(spring.damping * omega + 0.5 * spring.drag),
+        damped(std::sqrt(std::max(omega * omega - decay * decay, kLeastSwing * omega * omega))) {}
+};
+
+/// A load behind a spring and a damper, with friction of its own: of its place z against the motor
+/// z'' + 2 ζ ω z' + ω² z = −a − drag (w + z') − rub σ, σ = sign(w + z') set-valued at zero. The motor feels
+/// its inertia times −(ω² z + 2 ζ ω z'), of which a is the rigid part. Stepped in closed form under what
+/// pushes at the middle of each interval; the Coulomb friction is what brings the load to rest within it, or
+/// all of it.
+void resonance(const Samples& s, const Shape& spring, Columns g) {
+  const Swing swing(spring);
+  const double square = swing.omega * swing.omega, felt = 2.0 * spring.damping * swing.omega;
+  const auto pushes = [&](std::size_t i) { return s.a[i] + spring.drag * s.w[i]; };
+  double away = 0.0, rate = 0.0;  // from where the load would rest; at first it does
+  double rest = -(pushes(0) + spring.rub * direction(s.w[0])) / square;
+  double last = -1.0, e = 1.0, c = 1.0, q = 0.0;
   each(s, g, 0, [&](auto i) {
-    if (i == 0) return 0.0;
-    const double h = s.t[i] - s.t[i - 1], input = 0.5 * (s.a[i - 1] + s.a[i]);
-    if (h != last) e = std::exp(-decay * h), c = std::cos(damped * h), q = std::sin(damped * h), last = h;
-    const double away = y - input, turn = (rate + decay * away) / damped;
-    y = input + e * (away * c + turn * q);
-    rate = e * (damped * (turn * c - away * q) - decay * (away * c + turn * q));
-    return y - s.a[i];
+    if (i > 0) {
+      const double h = s.t[i] - s.t[i - 1], push = 0.5 * (pushes(i - 1) + pushes(i)), place = rest + away;
+      if (std::abs(h - last) > kSameStep * h) {
+        e = std::exp(-swing.decay * h), c = std::cos(swing.damped * h),
+        q = std::sin(swing.damped * h) / swing.damped;
+        last = h;
+      }
+      const auto rate_after = [&](double from) {
+        return e * (rate * (c - swing.decay * q) - from * square * q);
+      };
+      // Without Coulomb friction the load would move at w + z'; each unit of it takes e q off that.
+      const double free = s.w[i] + rate_after(place + push / square);
+      const double most = spring.rub * e * q, share = most > 0.0 ? std::clamp(free / most, -1.0, 1.0) : 0.0;
+      rest = -(push + spring.rub * share) / square;
+      away = place - rest;
+      const double turned = e * (away * (c + swing.decay * q) + rate * q);
+      rate = rate_after(away), away = turned;
+    }
+    return -square * (rest + away) - felt * rate - pushes(i) - spring.rub * direction(s.w[i]);
   });
 }
 
 /// Of a locked output: k (x − x0).
-void spring(const Samples& s, double, Columns g) {
+void spring(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) { return s.x[i]; });
   g.col(1).setOnes();
 }
 
 /// Of a locked output with play: any torque over the position, by hats at multiples of the spacing. They come
 /// again after as many as there are columns.
-void contact_curve(const Samples& s, double spacing, Columns g) {
+void contact_curve(const Samples& s, const Shape& spacing, Columns g) {
   g.setZero();
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     const double at = s.x[i] / spacing, below = std::floor(at), count = kContactKnots;
@@ -151,18 +181,18 @@ void contact_curve(const Samples& s, double spacing, Columns g) {
   }
 }
 
-void torque_rate(const Samples& s, double, Columns g) {
+void torque_rate(const Samples& s, const Shape&, Columns g) {
   each(s, g, 0, [&](auto i) {
     const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, s.t.size() - 1);
     return (s.tau[after] - s.tau[before]) / (s.t[after] - s.t[before]);
   });
 }
 
-void dead_zone(const Samples& s, double width, Columns g) {
+void dead_zone(const Samples& s, const Shape& width, Columns g) {
   each(s, g, 0, [&](auto i) { return std::tanh(s.tau[i] / width); });
 }
 
-void saturation(const Samples& s, double power, Columns g) {
+void saturation(const Samples& s, const Shape& power, Columns g) {
   double square = 0.0;
   for (const double tau : s.tau) square += tau * tau;
   const double scale = std::sqrt(square / static_cast<double>(s.tau.size())) + 1e-300;
@@ -170,7 +200,7 @@ void saturation(const Samples& s, double power, Columns g) {
 }
 
 /// Hats between the knots, of one direction each; beyond the last knot as there.
-void speed_curve(const Samples& s, double top, Columns g) {
+void speed_curve(const Samples& s, const Shape& top, Columns g) {
   g.setZero();
   for (std::size_t i = 0; i < s.w.size(); ++i) {
     const double v = std::min(std::abs(s.w[i]) / top, 1.0);
@@ -228,8 +258,8 @@ constexpr Law kLaws[] = {
      drift_values, 1},
     {"load_inertia_variation", "load_inertia_variation", nullptr, 1, Kind::kMotion, true, false, Sign::kAny,
      step_times, inertia_step, inertia_step_values, 1},
-    {"resonance", "shaft_compliance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia,
-     resonances, resonance, nullptr, -1},
+    {"resonance", "load_resonance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia, resonances,
+     resonance, resonance_values, 1},
     {"spring_to_ground", "shaft_compliance", nullptr, 2, Kind::kMotion, false, false, Sign::kPositive,
      only_held, spring, nullptr, -1},
     {"contact_curve", "", nullptr, kContactKnots, Kind::kMotion, false, false, Sign::kAny, only_known,
@@ -252,6 +282,17 @@ int Law::parameters() const {
   const bool given = shapes == no_shape || shapes == motor_turn || shapes == load_turn ||
                      shapes == only_held || harmonic > 0;
   return columns + (given ? 0 : 1);
+}
+
+void starting_swing(const Samples& s, const Shape& spring, Eigen::Ref<Eigen::MatrixXd> g) {
+  const Swing swing(spring);
+  g.setZero();
+  for (std::size_t i = 0; i < s.t.size(); ++i) {
+    const double past = s.t[i] - s.t.front(), size = std::exp(-swing.decay * past);
+    if (size < kOver) return;
+    g(static_cast<Eigen::Index>(i), 0) = size * std::cos(swing.damped * past);
+    g(static_cast<Eigen::Index>(i), 1) = size * std::sin(swing.damped * past);
+  }
 }
 
 std::span<const Law> laws() { return kLaws; }

@@ -36,7 +36,7 @@ struct Scales {
 /// The shapes that a law is tried at, in rising order; one NaN where it has none.
 using Shapes = std::vector<double> (*)(const Scales&);
 /// The law's torques per unit of its coefficients (samples × columns).
-using Fill = void (*)(const Samples&, double shape, Eigen::Ref<Eigen::MatrixXd> g);
+using Fill = void (*)(const Samples&, const Shape& shape, Eigen::Ref<Eigen::MatrixXd> g);
 
 enum class Kind {
   kMotion,    ///< of the motion alone
@@ -66,6 +66,11 @@ struct Law {
 
 std::span<const Law> laws();
 const Law& law(std::string_view name);  ///< @throws std::logic_error if there is none
+
+/// What the motor feels of a load that swings on its spring when a recording begins, per unit of its place
+/// and of its speed there (samples × 2). A recording has its own amount of it, which is no number of the
+/// drive.
+void starting_swing(const Samples& s, const Shape& spring, Eigen::Ref<Eigen::MatrixXd> g);
 
 /// Two cycles over the travel to what passes the band at the rms speed, Δk = π/2 over the travel.
 std::vector<double> line_grid(const Scales& scales);

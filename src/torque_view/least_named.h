@@ -16,7 +16,7 @@ namespace gapscope::internal::torque_view {
 /// nothing.
 struct LeastNamed {
   const Law* law = nullptr;
-  double shape = kNaN;         ///< that it is told for: of its grid the one in the middle, by least amount
+  Shape shape;                 ///< that it is told for: of its grid the one in the middle, by least amount
   Eigen::VectorXd theta;       ///< coefficients at the least amount; empty: there is none
   double torque = kNaN;        ///< rms of it on the held-out rows [unit of u]
   bool said_by_model = false;  ///< the model takes it up at any amount

@@ -26,7 +26,7 @@ Eigen::VectorXd solved(Eigen::MatrixXd columns, const Eigen::VectorXd& u) {
 }
 
 void take_solution(Rows& rows, Model& model) {
-  const Eigen::VectorXd theta = solved(model_columns(rows, model), rows.u);
+  const Eigen::VectorXd theta = solved(model_and_swing(rows, model), rows.u);
   Eigen::Index first = 0;
   for (Term& term : model) {
     term.theta = theta.segment(first, term.law->columns);
@@ -146,7 +146,7 @@ void filter_columns(Rows& rows, const Law& law, std::size_t r, Eigen::Ref<Eigen:
     filter.apply(rows.at_samples.col(c).data(), columns.col(c).data() + rows.first[r]);
 }
 
-void fill_columns(Rows& rows, const Law& law, double shape, Eigen::Ref<Eigen::MatrixXd> columns) {
+void fill_columns(Rows& rows, const Law& law, const Shape& shape, Eigen::Ref<Eigen::MatrixXd> columns) {
   for (std::size_t r = 0; r < rows.records().size(); ++r) {
     const auto count = static_cast<Eigen::Index>(rows.records()[r].t.size());
     law.fill(rows.samples(r), shape, rows.at_samples.topLeftCorner(count, law.columns));
@@ -185,6 +185,37 @@ void set_torque(Rows& rows, const Model& model) {
   }
 }
 
+const Term* spring_of(const Model& model) {
+  const auto at = std::find_if(model.begin(), model.end(),
+                               [](const Term& t) { return t.law->sign == Sign::kShareOfInertia; });
+  return at == model.end() ? nullptr : &*at;
+}
+
+Eigen::MatrixXd swing_columns(Rows& rows, const Shape& spring) {
+  const std::size_t records = rows.records().size();
+  Eigen::MatrixXd swing = Eigen::MatrixXd::Zero(rows.size(), static_cast<Eigen::Index>(2 * records));
+  for (std::size_t r = 0; r < records; ++r) {
+    const BandRecord& record = rows.records()[r];
+    starting_swing(rows.samples(r), spring,
+                   rows.at_samples.topLeftCorner(static_cast<Eigen::Index>(record.t.size()), 2));
+    for (Eigen::Index c = 0; c < 2; ++c)
+      record.rest.apply(rows.at_samples.col(c).data(),
+                        swing.col(static_cast<Eigen::Index>(2 * r) + c).data() + rows.first[r]);
+  }
+  centre(rows, swing);
+  return swing;
+}
+
+Eigen::MatrixXd model_and_swing(Rows& rows, const Model& model) {
+  Eigen::MatrixXd columns = model_columns(rows, model);
+  const Term* spring = spring_of(model);
+  if (spring == nullptr) return columns;
+  const Eigen::MatrixXd swing = swing_columns(rows, spring->shape);
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + swing.cols());
+  columns.rightCols(swing.cols()) = swing;
+  return columns;
+}
+
 Model fitted(Rows& rows, Model model) {
   const int rounds = reads_torque(model) ? kTorqueRounds : 0;
   take_solution(rows, model);
@@ -211,6 +242,10 @@ Eigen::VectorXd residual(Rows& rows, const Model& model, bool new_phase) {
       lines.emplace_back(std::move(columns), term.theta.norm());
     else
       left.noalias() -= columns * term.theta;
+  }
+  if (const Term* spring = spring_of(model)) {
+    const Eigen::MatrixXd swing = swing_columns(rows, spring->shape);
+    left -= swing * solved(swing, left);
   }
   for (std::size_t r = 0; r < rows.records().size(); ++r)
     for (const auto& [line, amplitude] : lines) {

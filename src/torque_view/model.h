@@ -13,7 +13,7 @@ namespace gapscope::internal::torque_view {
 /// A law in a model, at its shape, with its coefficients.
 struct Term {
   const Law* law = nullptr;
-  double shape = kNaN;
+  Shape shape;
   Eigen::VectorXd theta;
 };
 /// u = Σ θ g; the first two are the nominal ones, inertia and viscous damping.
@@ -51,12 +51,19 @@ Rows stacked(std::span<const StampedTrace> traces, double hz, bool free_constant
 Scales scales_of(const Rows& rows, const ShaftTurns& turns, bool held_output);
 
 /// A law's columns at the rows.
-void fill_columns(Rows& rows, const Law& law, double shape, Eigen::Ref<Eigen::MatrixXd> columns);
+void fill_columns(Rows& rows, const Law& law, const Shape& shape, Eigen::Ref<Eigen::MatrixXd> columns);
 /// What fill_columns() does with what stands in at_samples.
 void filter_columns(Rows& rows, const Law& law, std::size_t record, Eigen::Ref<Eigen::MatrixXd> columns);
 /// Each recording's mean is taken out where it has a constant of its own.
 void centre(const Rows& rows, Eigen::Ref<Eigen::MatrixXd> columns);
 Eigen::MatrixXd model_columns(Rows& rows, const Model& model);
+/// The spring of a model; nullptr: it has none.
+const Term* spring_of(const Model& model);
+/// starting_swing() at the rows, two columns a recording that are nothing at the others' rows.
+Eigen::MatrixXd swing_columns(Rows& rows, const Shape& spring);
+
+/// Both side by side, where a model has a spring.
+Eigen::MatrixXd model_and_swing(Rows& rows, const Model& model);
 
 /// The torque that laws of the command and of the load read: Σ θ g of all terms that read none.
 void set_torque(Rows& rows, const Model& model);
@@ -64,7 +71,8 @@ void set_torque(Rows& rows, const Model& model);
 /// All coefficients by least squares; where a term reads the model's torque, the best of a few rounds.
 Model fitted(Rows& rows, Model model);
 
-/// u − Σ θ g. @param new_phase  a recording keeps a line's amplitude but not where it counts from
+/// u − Σ θ g, and without what swings when a recording begins. @param new_phase  a recording keeps a line's
+/// amplitude but not where it counts from
 Eigen::VectorXd residual(Rows& rows, const Model& model, bool new_phase);
 
 }  // namespace gapscope::internal::torque_view

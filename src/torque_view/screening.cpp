@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "torque_view/spring_search.h"
 
 namespace gapscope::internal::torque_view {
 namespace {
 
-Model with(Model model, const Law& law, double shape) {
+Model with(Model model, const Law& law, const Shape& shape) {
   model.push_back({&law, shape, Eigen::VectorXd::Zero(law.columns)});
   return model;
 }
@@ -39,6 +40,18 @@ double absorbed(Bench& bench, const Model& model) {
   const Eigen::VectorXd torque = g * last.theta;
   return 1.0 -
          Projection(bench.fit, {model.begin(), model.end() - 1}, torque).square() / torque.squaredNorm();
+}
+
+/// The model with its spring asked anew: friction that was the load's may be the motor's with a further law.
+void ask_spring_again(Bench& bench, Model& model) {
+  const auto spring = std::find_if(model.begin(), model.end() - 1,
+                                   [](const Term& t) { return t.law->sign == Sign::kShareOfInertia; });
+  if (spring == model.end() - 1) return;
+  Model beside = model;
+  beside.erase(beside.begin() + (spring - model.begin()));
+  Projection projection(bench.fit, beside);
+  const BestShape best = refined_spring(bench.fit, projection, *spring->law, bench.scales, spring->shape);
+  if (!std::isnan(best.gain)) spring->shape = best.shape;
 }
 
 Candidate judged(Bench& bench, const Law& l, Model model, const Eigen::VectorXd& before,
@@ -74,10 +87,12 @@ std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueVi
   // The only simpler law of the table is Coulomb friction.
   const auto bringing =
       std::find_if(open.begin(), open.end(), [&](const Law* l) { return lacks_simpler(model, *l); });
-  Model with_simpler = model;
+  Model with_simpler = model, below_simpler = model;
   std::optional<Projection> beside_simpler;
   if (bringing != open.end()) {
     with_simpler = with(model, law((*bringing)->simpler), kNaN);
+    ask_spring_again(bench, with_simpler);
+    below_simpler.assign(with_simpler.begin(), with_simpler.end() - 1);
     beside_simpler.emplace(bench.fit, with_simpler);
   }
   std::vector<std::optional<Candidate>> found(open.size());
@@ -88,8 +103,12 @@ std::vector<Candidate> screened(Bench& bench, const Model& model, const TorqueVi
     Bench own = bench;  // laws are filled into its rows
     for (std::size_t i = next++; i < open.size(); i = next++) {
       const bool brings = lacks_simpler(model, *open[i]);
-      found[i] = tried(own, *open[i], model, brings ? with_simpler : model, brings ? *beside_simpler : plain,
-                       before, options);
+      const bool simpler = open[i] == with_simpler.back().law;
+      found[i] = tried(own, *open[i], model,
+                       brings    ? with_simpler
+                       : simpler ? below_simpler
+                                 : model,
+                       brings ? *beside_simpler : plain, before, options);
     }
   });
   std::vector<Candidate> ranking;

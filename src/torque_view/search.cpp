@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "torque_view/spring_search.h"
+
 namespace gapscope::internal::torque_view {
 namespace {
 
@@ -88,7 +90,7 @@ BestShape best_line(Rows& rows, Projection& projection, const Law& law, const st
 Projection::Projection(Rows& rows, const Model& model) : Projection(rows, model, rows.u) {}
 
 Projection::Projection(Rows& rows, const Model& model, const Eigen::VectorXd& y) {
-  Eigen::MatrixXd columns = model_columns(rows, model);
+  Eigen::MatrixXd columns = model_and_swing(rows, model);
   const Eigen::VectorXd norm = columns.colwise().norm().transpose().cwiseMax(1e-300);
   columns = columns * norm.cwiseInverse().asDiagonal();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
@@ -123,6 +125,12 @@ Projection::Gain Projection::gain(const Eigen::Ref<const Eigen::MatrixXd>& g) {
   return gain;
 }
 
+Eigen::VectorXd Projection::left_after(const Eigen::Ref<const Eigen::MatrixXd>& g) {
+  const Gain gained = gain(g);
+  Eigen::VectorXd along = basis_.transpose() * (g * gained.theta);
+  return left_ - g * gained.theta + basis_ * along;
+}
+
 bool has_its_sign(const Law& law, double theta, double inertia) {
   switch (law.sign) {
     case Sign::kAny:
@@ -140,6 +148,7 @@ bool has_its_sign(const Law& law, double theta, double inertia) {
 BestShape best_shape(Rows& rows, Projection& projection, const Law& law, const Scales& scales) {
   const std::vector<double> shapes = law.shapes(scales);
   if (law.shapes == line_grid) return best_line(rows, projection, law, shapes, scales.lines);
+  if (law.sign == Sign::kShareOfInertia) return best_spring(rows, projection, law, shapes);
   BestShape best;
   Eigen::MatrixXd columns(rows.size(), law.columns);
   for (const double shape : shapes) {

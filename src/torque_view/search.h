@@ -24,6 +24,8 @@ class Projection {
     Coefficients theta;
   };
   Gain gain(const Eigen::Ref<const Eigen::MatrixXd>& columns);
+  /// What then is left of the signal.
+  Eigen::VectorXd left_after(const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
  private:
   Eigen::MatrixXd basis_, along_;
@@ -36,7 +38,8 @@ bool has_its_sign(const Law& law, double theta, double inertia);
 
 /// The shape at which a law gains most, beside what the model has; NaN gain if it is absent at every one.
 struct BestShape {
-  double shape = kNaN, gain = kNaN;
+  Shape shape;
+  double gain = kNaN;
 };
 BestShape best_shape(Rows& rows, Projection& projection, const Law& law, const Scales& scales);
 

@@ -50,14 +50,14 @@ Below::Below(Bench& bench, const Model& model)
   solver_.compute(fit_columns_ * norm_.cwiseInverse().asDiagonal());
 }
 
-Eigen::MatrixXd Below::columns(Rows& rows, const Law& l, double shape, bool with_simpler) {
+Eigen::MatrixXd Below::columns(Rows& rows, const Law& l, const Shape& shape, bool with_simpler) {
   Model added;
   if (with_simpler) added.push_back({&law(l.simpler), kNaN, {}});
   added.push_back({&l, shape, {}});
   return model_columns(rows, added);
 }
 
-Signature Below::signature(const Law& l, double shape) {
+Signature Below::signature(const Law& l, const Shape& shape) {
   const bool brings = lacks_simpler(model_, l);
   Signature s;
   s.law = &l, s.shape = shape;

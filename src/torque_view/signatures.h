@@ -12,7 +12,7 @@ namespace gapscope::internal::torque_view {
 /// A law that adds to another one, which the model lacks, brings that one's columns along, first.
 struct Signature {
   const Law* law = nullptr;
-  double shape = kNaN;
+  Shape shape;
   Eigen::Index own = 0;                ///< the law's own first column
   Eigen::MatrixXd whole, judge_whole;  ///< g of both
   Eigen::MatrixXd fit, judge;          ///< what is left of them, see above
@@ -26,7 +26,7 @@ class Below {
   /// The bench must outlive it.
   Below(Bench& bench, const Model& model);
 
-  Signature signature(const Law& law, double shape);
+  Signature signature(const Law& law, const Shape& shape);
   /// Every law that a rung could add, at the shapes of its grid; a line at a few of its periods.
   std::vector<Signature> all_signatures(const TorqueViewOptions& options);
 
@@ -34,7 +34,7 @@ class Below {
   const Eigen::VectorXd& judge_left() const { return judge_left_; }  ///< of the held-out ones
 
  private:
-  Eigen::MatrixXd columns(Rows& rows, const Law& law, double shape, bool with_simpler);
+  Eigen::MatrixXd columns(Rows& rows, const Law& law, const Shape& shape, bool with_simpler);
 
   Bench& bench_;
   const Model& model_;

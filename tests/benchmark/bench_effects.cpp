@@ -25,7 +25,7 @@ const std::vector<EffectCase>& effect_cases() {
       {"load_inertia", "load_inertia_variation", {0.5, 3.0, 1.0}},
       {"sense", "encoder_eccentricity", {0.001, 0.4, 1.0}},
       {"advance", "presliding_friction", {0.01, 0.005, 0.0}},
-      {"substeps", "load_resonance", {0.2, 0.2 * kRate, 0.05}}};
+      {"substeps", "load_resonance", {0.2, 0.2 * kRate, 0.05, 0.0, 0.0}}};
   return cases;
 }
 

@@ -248,11 +248,12 @@ TEST(Layout, EachThirdPartyLibraryStaysInItsModule) {
       }
 }
 
-TEST(Layout, CeresIsSeenOnlyByTheFitAndItsJetsOnlyByTheScalarHeader) {
+TEST(Layout, CeresIsSeenOnlyByTheFitsAndItsJetsOnlyByTheScalarHeader) {
   for (const Include& i : includes()) {
     if (!i.header.starts_with("ceres/")) continue;
     const bool jet = i.header == "ceres/jet.h" && i.file == "include/gapscope/plant/scalar.h";
-    const bool solver = i.file.string().starts_with("src/reference/");
+    const bool solver =
+        i.file.string().starts_with("src/reference/") || i.file == "src/torque_view/spring_search.cpp";
     EXPECT_TRUE(jet || solver) << i.file << " includes " << i.header;
   }
 }

@@ -148,7 +148,7 @@ const std::vector<EqualForm>& equal_forms() {
        [](const V& p, independent_plant::Effects& e) { e.command.ripple = with_harmonics(p); }},
       {"load_resonance",
        [](const Rig&) {
-         return V{0.3, 12.0, 0.04};
+         return V{0.3, 12.0, 0.04, 0.0, 0.0};
        },
        [](const V& p, independent_plant::Effects& e) {
          const double rate = 2.0 * kPi * p[1];
@@ -265,6 +265,26 @@ TEST(OneBody, WithGearsThatRubUnderAnUnbalanceAndItsOwnInertiaFreeRunsTenSeconds
   const double difference = largest_difference(rig, model, 10, truth);
   std::cout << "one body: " << difference / kCount20Bit << " counts of 20 bit\n";
   EXPECT_LT(difference, 0.2 * kCount20Bit);
+}
+
+/// Its dry friction grows to its level over a slow stretch, where the other plant's is set-valued.
+TEST(OneBody, WithAFurtherInertiaThatRubsIsTwoBodiesOnASpring) {
+  const Rig& rig = kRigs[0];
+  DriveStructure one;
+  one.has_load = false;
+  PlantModel<double> model = plant_model(rig.drive, one);
+  const double peak = torque(rig), hz = 12.0, omega = 2.0 * kPi * hz;
+  add_effect<double>(model, *find_effect("load_resonance"),
+                     std::vector<double>{1.2, hz, 0.05, 0.5 * rig.drive.motor_damping, 0.1 * peak});
+  independent_plant::BlindDrive truth = independent(rig.drive);
+  truth.contact = independent_plant::ContactKind::kBonded, truth.gap = 0.0;
+  truth.load_inertia = 1.2 * rig.drive.motor_inertia;
+  truth.contact_stiffness = truth.load_inertia * omega * omega;
+  truth.contact_damping = 0.1 * truth.load_inertia * omega;
+  truth.load_damping = 0.5 * rig.drive.motor_damping, truth.load_coulomb = 0.1 * peak;
+  const double difference = largest_difference(rig, model, -1, truth);
+  std::cout << "one body with a further inertia that rubs: " << difference << " rad\n";
+  EXPECT_LT(difference, 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, OnThreeRigs, ::testing::ValuesIn(kRigs),

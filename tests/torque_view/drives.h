@@ -67,6 +67,31 @@ inline StampedTrace rippling_pendulum(const std::function<double(double)>& input
   return trace;
 }
 
+/// A motor (0.001, damping 0.002) whose load (0.0015, damping 0.003, Coulomb friction 0.03) hangs on a spring
+/// that lets it swing at 6 Hz beside a motor that is held, damping ratio 0.05; at first it swings by 0.02.
+/// Recorded as rippling_pendulum().
+inline StampedTrace sprung_load(const std::function<double(double)>& input) {
+  constexpr double kStep = 0.002, kMotor = 0.001, kLoad = 0.0015, kOmega = 2.0 * kPi * 6.0;
+  constexpr int kSubsteps = 40, kSamples = 6000;
+  StampedTrace trace;
+  trace.quantum = 2.0 * kPi / 65536.0;
+  trace.held_command = true;
+  double x = 0.0, w = 0.0, y = 0.02, v = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = kStep * i, u = input(t), h = kStep / kSubsteps;
+    trace.t.push_back(t), trace.u.push_back(u);
+    trace.x.push_back(trace.quantum * std::round(x / trace.quantum));
+    for (int k = 0; k < kSubsteps; ++k) {
+      const double shaft = kLoad * (kOmega * kOmega * (x - y) + 0.1 * kOmega * (w - v));
+      w += h / kMotor * (u - 0.002 * w - shaft);
+      const double next = v + h / kLoad * (shaft - 0.003 * v), friction = h / kLoad * 0.03;
+      v = std::copysign(std::max(0.0, std::abs(next) - friction), next);
+      x += h * w, y += h * v;
+    }
+  }
+  return trace;
+}
+
 /// ± 0.3 at a frequency [Hz].
 inline double triangle(double t, double hz) { return 0.6 / kPi * std::asin(std::sin(2.0 * kPi * hz * t)); }
 

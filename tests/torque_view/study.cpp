@@ -93,8 +93,9 @@ void print_rungs(const Budget& b, std::size_t ranks) {
                c.law->name, r.rms, percent * r.rms, text(c.evidence), r.rival, r.margin, r.leading,
                first_coefficient(c.model, "inertia"));
     for (std::size_t i = 0; i < std::min(ranks, r.ranking.size()); ++i)
-      fmt::print("         {:26} {:10.4g} {} :{}\n", r.ranking[i].law->name, r.ranking[i].model.back().shape,
-                 text(r.ranking[i].evidence), text(r.ranking[i].model.back().theta));
+      fmt::print("         {:26} {:10.4g} {} :{}\n", r.ranking[i].law->name,
+                 r.ranking[i].model.back().shape.at, text(r.ranking[i].evidence),
+                 text(r.ranking[i].model.back().theta));
     for (const std::string& name : r.group) fmt::print("         same group: {}\n", name);
   }
 }
@@ -103,7 +104,7 @@ void print_shares(const Budget& b) {
   fmt::print(
       "law                        shape       alone                      last                 s_pred absorbed least\n");
   for (const Share& s : b.shares)
-    fmt::print("{:26} {:<10.4g} {} {} {:.2f} {:.2f} {:.3f} x:{}\n", s.law->name, s.shape, text(s.alone),
+    fmt::print("{:26} {:<10.4g} {} {} {:.2f} {:.2f} {:.3f} x:{}\n", s.law->name, s.shape.at, text(s.alone),
                text(s.last), s.seen.predicted, s.seen.absorbed, s.seen.smallest, text(s.theta));
   for (const std::string& name : b.dropped) fmt::print("dropped: {}\n", name);
   fmt::print(

@@ -71,6 +71,23 @@ TEST(Ladder, TheFirstOfTwoIsNamedThoughTheSecondWasItsRival) {
   EXPECT_TRUE(second.named) << second.choice().law->name;
 }
 
+// Above its swing the load is not felt: a band that ends where inertia seems to be lost would not show it.
+TEST(Ladder, ALoadOnASpringIsNamedAndMeasuredWithFrictionOfItsOwn) {
+  SplitRecordings data{{test::sprung_load(test::multisine(3))}, {test::sprung_load(test::multisine(4))}};
+  data.new_phase = true;
+  const Budget b = error_budget(data);
+  EXPECT_GT(b.band.hz, 6.0);
+  const Term* spring = spring_of(b.model);
+  ASSERT_NE(spring, nullptr);
+  EXPECT_THAT(names(b), ::testing::UnorderedElementsAre("motor_coulomb_friction", "resonance"));
+  for (const Rung& r : b.rungs) EXPECT_TRUE(r.named || !r.helps);
+  EXPECT_NEAR(spring->shape.at, 6.0, 0.06);
+  EXPECT_NEAR(spring->theta[0], 0.0015, 0.00006);
+  EXPECT_NEAR(spring->theta[0] * spring->shape.rub, 0.03, 0.003);
+  EXPECT_NEAR(first_coefficient(b.model, "inertia"), 0.0025, 0.0001) << "of motor and load";
+  EXPECT_NEAR(first_coefficient(b.model, "motor_coulomb_friction"), 0.03, 0.003) << "of both";
+}
+
 TEST(Ladder, NothingIsAddedToADriveThatLacksNothing) {
   for (const double noise : {0.01, 0.1})
     EXPECT_EQ(names(diagnosed([](const Motion&) { return 0.0; }, noise)), std::vector<std::string>{})

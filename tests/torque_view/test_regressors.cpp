@@ -79,8 +79,7 @@ TEST(Band, EndsWhereTheEncodersNoiseBeginsToEatTheInertia) {
   StampedTrace noisy = trace;
   std::mt19937_64 generator = random_stream(6, "noise");
   for (double& x : noisy.x) x += 2e-3 * normal(generator);
-  const FrequencyBand clean = choose_band({&trace, 1}, {}, {}, {}),
-                      rough = choose_band({&noisy, 1}, {}, {}, {});
+  const FrequencyBand clean = choose_band({&trace, 1}, {}, {}), rough = choose_band({&noisy, 1}, {}, {});
   EXPECT_LT(rough.hz, clean.hz);
   for (const Octave& o : rough.octaves)
     if (o.top_hz <= rough.hz && o.inertial > 0.1) {
@@ -90,9 +89,9 @@ TEST(Band, EndsWhereTheEncodersNoiseBeginsToEatTheInertia) {
 
 TEST(Band, OneSpeedAsksForAFreeConstant) {
   StampedTrace trace = test::recorded(nothing, 0.3);
-  EXPECT_FALSE(choose_band({&trace, 1}, {}, {}, {}).free_constant);
+  EXPECT_FALSE(choose_band({&trace, 1}, {}, {}).free_constant);
   for (std::size_t i = 0; i < trace.x.size(); ++i) trace.x[i] = 30.0 * trace.t[i] + 0.1 * trace.x[i];
-  EXPECT_TRUE(choose_band({&trace, 1}, {}, {}, {}).free_constant);
+  EXPECT_TRUE(choose_band({&trace, 1}, {}, {}).free_constant);
 }
 
 }  // namespace

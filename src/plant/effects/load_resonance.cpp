@@ -11,12 +11,15 @@ namespace {
 struct LoadResonance {
   static constexpr EffectSide side = EffectSide::kLoad;
   static constexpr const char* law =
-      "load torque m3 (w0^2 (x3 - x2) + 2 D w0 (w3 - w2)), which moves m3 = ratio m2 back; w0 = 2 pi f";
+      "load torque m3 (w0^2 (x3 - x2) + 2 D w0 (w3 - w2)), which moves m3 = ratio m2 back against its own friction "
+      "damping w3 + level sign(w3); w0 = 2 pi f";
   static constexpr EffectParameterSpec parameters[] = {
       // key, unit, absent, bounds and what they are measured in
       {"inertia_ratio", "-", 0.0, 0.0, 5.0, Scale::kOne, false, "of the load's inertia"},
       {"frequency_hz", "Hz", 30.0, 1.0, 5000.0, Scale::kPerRecord},
-      {"damping_ratio", "-", 0.05, 0.0, 1.0, Scale::kOne}};
+      {"damping_ratio", "-", 0.05, 0.0, 1.0, Scale::kOne},
+      {"damping_nms", "N m s/rad", 0.0, 0.0, 1.0, Scale::kTorquePerSpeed, true},
+      {"level_nm", "N m", 0.0, 0.0, 1.0, Scale::kPeakTorque, true}};
   static constexpr std::array<const char*, 2> look_alikes = {"shaft_compliance", "input_delay"};
   static constexpr ResidualPattern follows = ResidualPattern::kInputSteps;
   static constexpr EffectNeeds needs = EffectNeeds::kFreeLoad;
@@ -31,10 +34,31 @@ struct LoadResonance {
   static constexpr double kOver[kOrder + 1] = {0.0,     1.0,     1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5,
                                                1.0 / 6, 1.0 / 7, 1.0 / 8, 1.0 / 9, 1.0 / 10};
 
+  static constexpr double kTight = 2.0;  ///< rate at which dry friction stops the further inertia [w0]
+
   template <class T>
   struct Body {
     T x, w;
   };
+
+  template <class T>
+  static T carried(const PlantModel<T>& plant) {
+    const DriveParameters<T>& d = plant.drive;
+    return plant.structure.has_load ? T(d.motor_inertia * d.mass_ratio) : d.motor_inertia;
+  }
+
+  /// What its own friction takes off its acceleration at this speed: dry friction grows with the speed until
+  /// it has its level.
+  template <class T>
+  static T friction(const PlantModel<T>& plant, const T& speed, const T* p) {
+    if (value_of(p[4]) <= 0.0 || value_of(p[0]) <= 0.0) return T(0.0);
+    const T most = p[4] / (p[0] * carried(plant)), slow = kTight * 2.0 * kPi * p[1] * speed;
+    return slow > most ? most : slow < -most ? T(-most) : slow;
+  }
+  template <class T>
+  static T drag(const PlantModel<T>& plant, const T* p) {
+    return value_of(p[3]) <= 0.0 || value_of(p[0]) <= 0.0 ? T(0.0) : T(p[3] / (p[0] * carried(plant)));
+  }
 
   template <class T>
   static Body<T> carrier(const DriveState<T>& state, const PlantModel<T>& plant) {
@@ -52,11 +76,16 @@ struct LoadResonance {
     T slope = (memory[1] - from.w) * h;
     const T way = to.x - from.x;
     const T base[] = {3.0 * way - (2.0 * from.w + to.w) * h, (from.w + to.w) * h - 2.0 * way};
-    const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle, drag = 2.0 * p[2] * angle;
+    const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle;
+    const T own = drag(at.plant, p) * h, damp = 2.0 * p[2] * angle + own;
+    // Its friction, of the carrier's speed and of the dry level, in powers of the share of the step.
+    const T push[] = {own * from.w * h + friction(at.plant, memory[1], p) * h * h, 2.0 * own * base[0],
+                      3.0 * own * base[1]};
     T place = z + slope, speed = slope;
     for (int n = 0; n + 2 <= kOrder; ++n) {
-      T next = (pull * z * kOver[n + 1] + drag * slope) * -kOver[n + 2];
+      T next = (pull * z * kOver[n + 1] + damp * slope) * -kOver[n + 2];
       if (n < 2) next -= base[n];
+      if (n < 3) next -= push[n] * kOver[n + 1] * kOver[n + 2];
       place += next, speed += (n + 2.0) * next;
       z = slope, slope = next;
     }
@@ -66,16 +95,20 @@ struct LoadResonance {
   template <class T>
   static DriveTorque<T> torque(const EffectPoint<T>& at, const T* p) {
     const Body<T> z = apart(at, at.memory, p);
-    const DriveParameters<T>& d = at.plant.drive;
-    const T inertia = at.plant.structure.has_load ? T(d.motor_inertia * d.mass_ratio) : d.motor_inertia;
     const T rate = 2.0 * kPi * p[1];
-    return {.load = p[0] * inertia * rate * (rate * z.x + 2.0 * p[2] * z.w)};
+    return {.load = p[0] * carried(at.plant) * rate * (rate * z.x + 2.0 * p[2] * z.w)};
   }
 
+  /// It begins with its carrier, and without a load where a rigid shaft would need the spring to be.
   template <class T>
-  static void remember(const EffectPoint<T>& start, T* memory, const T*) {
+  static void remember(const EffectPoint<T>& start, T* memory, const T* p) {
     const Body<T> on = carrier(start.state, start.plant);
     memory[0] = on.x, memory[1] = on.w;
+    if (start.plant.structure.has_load) return;
+    const T inertia = start.plant.drive.motor_inertia, rate = 2.0 * kPi * p[1];
+    const T own = drag(start.plant, p) * on.w + friction(start.plant, on.w, p);
+    const T left = start.drive_torque - start.plant.drive.motor_damping * on.w - p[0] * inertia * own;
+    memory[0] -= (left / (inertia * (1.0 + p[0])) + own) / (rate * rate);
   }
 
   template <class T>
@@ -87,7 +120,8 @@ struct LoadResonance {
   /// Both inertias against each other swing faster than the further one on a held load.
   template <class T>
   static double rate(const EffectPoint<T>&, const T* p) {
-    return 2.0 * kPi * value_of(p[1]) * (std::sqrt(1.0 + value_of(p[0])) + 2.0 * value_of(p[2]));
+    const double dry = value_of(p[4]) > 0.0 ? kTight : 0.0;
+    return 2.0 * kPi * value_of(p[1]) * (std::sqrt(1.0 + value_of(p[0])) + 2.0 * value_of(p[2]) + dry);
   }
 };
 
