@@ -275,11 +275,25 @@ Diagnosis report_added(const Study& whole, const FirstSearch& found, const Score
   return d;
 }
 
+/// With its numbers where they settle; what free runs leave nothing of is taken out, and the rest settles
+/// anew.
+TorqueSearch settled_ladder(const Study& whole, TorqueSearch ladder) {
+  for (;;) {
+    TorqueSearch told{ladder.added, settled(whole, on_all(whole, ladder.after))};
+    TorqueSearch left = told;
+    drop_what_vanished(ladder.after.fitted.model, left);
+    if (left.added.size() == told.added.size()) return told;
+    if (left.added.empty()) return left;
+    ladder = std::move(left);
+  }
+}
+
 }  // namespace
 
 Diagnosis report_ladder(const Study& study, const FirstSearch& found, const TorqueSearch& ladder) {
   const Study whole = of_all(study);
-  const TorqueSearch told{ladder.added, settled(whole, on_all(whole, ladder.after))};
+  const TorqueSearch told = settled_ladder(whole, ladder);
+  if (told.added.empty()) return report_back(study, found, {});
   Diagnosis d = report_added(whole, found, told.after, added_effects(*found.budget, told));
   mark_undecided(d);
   return d;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/require.h"
+#include "diagnosis/effect_starts.h"
 #include "diagnosis/periodic_torque.h"
 #include "diagnosis/step.h"
 #include "diagnosis/torque_model.h"
@@ -148,29 +149,6 @@ std::vector<const EffectEntry*> group_of(const view::Budget& budget, const view:
   return group;
 }
 
-/// @param balanced  the model as the balance had it, with the same effects
-/// @returns whether any of them had an amount left, so that the model is another one without it
-bool drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
-  std::vector<ModelEffect>& effects = search.after.fitted.model.effects;
-  GAPSCOPE_REQUIRE(effects.size() == balanced.effects.size());
-  bool changes = false;
-  std::vector<bool> gone;
-  for (const ModelEffect& e : effects) gone.push_back(has_vanished(e));
-  std::vector<TorqueAddition> kept;
-  for (std::size_t i = 0; i < search.added.size(); ++i) {
-    const ModelEffect* effect = effect_of(search, i);
-    const auto at = static_cast<std::size_t>(effect == nullptr ? 0 : effect - effects.data());
-    if (effect != nullptr && !gone[at] && has_faded(*effect, balanced.effects[at])) gone[at] = changes = true;
-    if (effect == nullptr || !gone[at]) kept.push_back(search.added[i]);
-  }
-  search.added = std::move(kept);
-  std::vector<ModelEffect> left;
-  for (std::size_t i = 0; i < effects.size(); ++i)
-    if (!gone[i]) left.push_back(effects[i]);
-  effects = std::move(left);
-  return changes;
-}
-
 /// Whether a model can be run, and departs no further than far from the one that it was added to, unless that
 /// says nothing.
 bool is_usable(const ScoredModel& model, const ScoredModel& nominal) {
@@ -184,6 +162,32 @@ bool is_asked_with(const std::vector<const EffectEntry*>& asked, const EffectEnt
   return std::any_of(asked.begin(), asked.end(), [&](const EffectEntry* e) {
     return e == &entry || contained_effect(*e) == &entry || (law_of(*e) == nullptr && look_alike(*e, entry));
   });
+}
+
+/// A delay and a first order of the same time differ in its square only. The balance does not see that; the
+/// motion may, and then the worse of them is none of the group.
+void tell_delays_apart(const Study& study, const ScoredModel& nominal, TorqueSearch& search) {
+  for (TorqueAddition& a : search.added) {
+    if (std::none_of(a.group.begin(), a.group.end(), [](const EffectEntry* e) { return acts_as_delay(*e); }))
+      continue;
+    const ReferenceModel delayed = search.after.fitted.model;
+    const auto at = std::ranges::find(delayed.effects, a.group.front(), &ModelEffect::entry);
+    if (at == delayed.effects.end()) continue;
+    std::vector<std::pair<const EffectEntry*, ScoredModel>> tried = {{a.group.front(), search.after}};
+    for (const EffectEntry* entry : a.group) {
+      if (!acts_as_delay(*entry)) continue;
+      ReferenceModel lagging = delayed;
+      lagging.effects[static_cast<std::size_t>(at - delayed.effects.begin())] =
+          searched_effect(*entry, {at->parameters[0].value}, study.turns);
+      tried.emplace_back(entry, refitted_from(study, lagging, nominal));
+    }
+    std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.second.score; });
+    if (!(tried.front().second.score < search.after.score - kRule.tells_apart)) continue;
+    for (const auto& [entry, model] : tried)
+      if (!(model.score < tried.front().second.score + kRule.tells_apart)) std::erase(a.group, entry);
+    std::ranges::stable_partition(a.group, [&](const EffectEntry* e) { return e == tried.front().first; });
+    search.after = tried.front().second;
+  }
 }
 
 }  // namespace
@@ -274,6 +278,27 @@ std::vector<const EffectEntry*> worth_refitting(const Study& study, const view::
   return entries;
 }
 
+bool drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search) {
+  std::vector<ModelEffect>& effects = search.after.fitted.model.effects;
+  GAPSCOPE_REQUIRE(effects.size() == balanced.effects.size());
+  bool changes = false;
+  std::vector<bool> gone;
+  for (const ModelEffect& e : effects) gone.push_back(has_vanished(e));
+  std::vector<TorqueAddition> kept;
+  for (std::size_t i = 0; i < search.added.size(); ++i) {
+    const ModelEffect* effect = effect_of(search, i);
+    const auto at = static_cast<std::size_t>(effect == nullptr ? 0 : effect - effects.data());
+    if (effect != nullptr && !gone[at] && has_faded(*effect, balanced.effects[at])) gone[at] = changes = true;
+    if (effect == nullptr || !gone[at]) kept.push_back(search.added[i]);
+  }
+  search.added = std::move(kept);
+  std::vector<ModelEffect> left;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    if (!gone[i]) left.push_back(effects[i]);
+  effects = std::move(left);
+  return changes;
+}
+
 TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const view::Budget& budget) {
   const view::TorqueViewOptions options;
   TorqueSearch search;
@@ -303,6 +328,7 @@ TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const v
   for (const ReferenceModel& values : {balanced, with_drive(balanced, nominal.fitted.model)})
     if (!std::isfinite(search.after.score)) search.after = refitted_from(study, values, nominal);
   if (!is_usable(search.after, nominal)) return {};
+  tell_delays_apart(study, nominal, search);
   if (drop_what_vanished(balanced, search)) {
     search.after = refitted_from(study, search.after.fitted.model, nominal);
     if (!is_usable(search.after, nominal)) return {};

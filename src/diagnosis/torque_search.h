@@ -54,6 +54,10 @@ struct TorqueSearch {
 /// the rungs; nullptr: an effect that contains it stands there.
 const ModelEffect* effect_of(const TorqueSearch& search, std::size_t addition);
 
+/// Takes out what has no amount left. @param balanced  the model before, with the same effects
+/// @returns whether any of them had one, so that the model is another one without it
+bool drop_what_vanished(const ReferenceModel& balanced, TorqueSearch& search);
+
 TorqueSearch take_ladder(const Study& study, const ScoredModel& nominal, const torque_view::Budget& budget);
 
 }  // namespace gapscope::internal::diagnosis

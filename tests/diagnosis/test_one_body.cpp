@@ -1,7 +1,9 @@
 // A drive of one body that lacks two effects: its torque balance and its encoder.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/among.h"
 #include "diagnosis/torque_model.h"
@@ -14,7 +16,8 @@ using namespace internal::diagnosis;
 
 constexpr double kRate = 500.0;
 
-Recording under(const independent_plant::BlindDrive& drive, double (*input)(double), std::uint64_t noise) {
+Recording under(const independent_plant::BlindDrive& drive, const std::function<double(double)>& input,
+                std::uint64_t noise) {
   constexpr double kDuration = 3.0;
   std::vector<double> u;
   for (int i = 0; i < static_cast<int>(kRate * kDuration); ++i) u.push_back(input(2.0 * kPi * i / kRate));
@@ -53,6 +56,38 @@ TEST(OneBody, IsToldWhatLeavesItsEncoderNothingRatherThanWhatTheBalanceSees) {
   EXPECT_TRUE(std::isnan(found.outside_probability)) << "learned on drives without an error budget";
   ASSERT_FALSE(found.ranking.empty());
   for (const RankedEffect& e : found.ranking) EXPECT_TRUE(std::isnan(e.probability)) << e.effect;
+}
+
+// Below the band's top a delay and a lag of one time are the same law of the torque: the motion tells them
+// apart.
+TEST(OneBody, ALagOfTheTorqueIsNoDelayOfTheInput) {
+  independent_plant::BlindDrive d;
+  d.load = independent_plant::BlindLoad::kNone;
+  d.motor_inertia = 1.885e-3, d.motor_damping = 0.02;
+  d.effects.motor.friction.level_nm = 0.01;
+  d.effects.command.lag_s = 12e-3;
+  const auto many = [](double shift) {
+    return [shift](double t) {
+      double u = 0.0;
+      for (int i = 1; i <= 12; ++i) u += 0.1 * std::sin(0.4 * i * t + shift * i * i);
+      return u;
+    };
+  };
+  const Recording train = under(d, many(0.7), 1), held_out = under(d, many(1.9), 2);
+  ReferenceModel sheet;
+  sheet.structure.has_load = false;
+  sheet.set("torque_constant", ParameterSetting::known(d.torque_constant));
+  sheet.set("motor_inertia", ParameterSetting::sought(1.7e-3));
+  sheet.set("motor_damping", ParameterSetting::sought(0.03));
+  const MotorTrace fitted[] = {train.motor_trace()}, judging[] = {held_out.motor_trace()};
+  const Diagnosis found = diagnose(fitted, judging, sheet,
+                                   test::among({"motor_coulomb_friction", "input_delay", "actuator_lag",
+                                                "measurement_lag", "input_dead_zone"}));
+  const auto lag = std::ranges::find(found.added, "actuator_lag", &AddedEffect::effect);
+  ASSERT_TRUE(lag != found.added.end()) << ::testing::PrintToString(found.effects);
+  EXPECT_EQ(lag->group, std::vector<std::string>{"actuator_lag"});
+  EXPECT_EQ(std::ranges::count(found.effects, "input_delay"), 0);
+  EXPECT_NEAR(lag->parameters.front().value, 12e-3, 0.5e-3);
 }
 
 // Where an arm is held level gravity is nearly a constant torque: with friction it looks as friction that
