@@ -1,7 +1,7 @@
 // The diagnosis on drives of one body of the independent plant, recorded as real drives are: in closed loop,
 // at constant speed, or under a given command.
-//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded|levels] [--effect
-//   NAME|none]
+//   study_closed_loop [--seed FIRST] [--count N] [--kind loop|constant|open|commanded|levels|belt]
+//                     [--effect NAME|none]
 //                     [--volt-step SHARE] [-j THREADS]
 // Effects follow from the seed unless one is given; "none" lacks nothing. Prints a line a case and counts
 // with Wilson limits.
@@ -48,6 +48,7 @@ Order read_order(int argc, char** argv) {
                      : value == "open"      ? Driven::kOpen
                      : value == "commanded" ? Driven::kCommanded
                      : value == "levels"    ? Driven::kLevels
+                     : value == "belt"      ? Driven::kBelt
                                             : Driven::kLoop;
   }
   return order;
@@ -134,9 +135,21 @@ void judge_line(const test::LoopCase& c, const Diagnosis& d, Answer& a) {
   a.denied = a.denied || (!a.with_number && d.verdict == DiagnosisVerdict::kNone);
 }
 
+/// Of a load on a spring: whether it was established, and whether the interval of its frequency holds.
+void judge_spring(const test::LoopCase& c, const Diagnosis& d, Answer& a) {
+  for (const AddedEffect& e : d.added) {
+    if (e.effect != c.effect) continue;
+    a.with_number = e.established;
+    for (const NamedValue& v : e.parameters)
+      a.in_interval = a.in_interval ||
+                      (v.key == "frequency_hz" && v.ci95.low <= c.spring_hz && c.spring_hz <= v.ci95.high);
+  }
+}
+
 /// Half of such drives have Coulomb friction, too.
 bool names_only_its_own(const test::LoopCase& c, const Diagnosis& d) {
-  const bool rubs = c.drive.effects.motor.friction.level_nm > 0.0;
+  const bool rubs = c.drive.effects.motor.friction.level_nm > 0.0 ||
+                    (c.drive.load != independent_plant::BlindLoad::kNone && c.drive.load_coulomb > 0.0);
   return std::all_of(d.added.begin(), d.added.end(), [&](const AddedEffect& e) {
     return !e.established || e.effect == c.effect || holds(e.group, c.effect) ||
            (rubs && e.effect == "motor_coulomb_friction");
@@ -144,6 +157,7 @@ bool names_only_its_own(const test::LoopCase& c, const Diagnosis& d) {
 }
 
 std::string line_in_words(const test::LoopCase& c, const Answer& a) {
+  if (!std::isnan(c.spring_hz)) return a.in_interval ? "; held" : "";
   return std::isnan(c.periods) ? ""
                                : fmt::format("; {} of {:.4g}{}{}{}", c.periods, c.amplitude,
                                              a.with_number ? ", number right" : "",
@@ -174,8 +188,9 @@ Answer examine(const test::LoopCase& c) {
   for (std::size_t i = 1; i < d.added.size(); ++i)
     a.wrong_later = a.wrong_later || (d.added[i].established && !holds(d.added[i].group, c.effect));
   a.floors = d.mismatch.before / d.mismatch.floor;
-  judge_line(c, d, a);
-  if (!std::isnan(c.periods)) a.first = a.in_group = a.with_number && names_only_its_own(c, d);
+  std::isnan(c.spring_hz) ? judge_line(c, d, a) : judge_spring(c, d, a);
+  if (!std::isnan(c.periods) || !std::isnan(c.spring_hz))
+    a.first = a.in_group = a.with_number && names_only_its_own(c, d);
   a.line =
       fmt::format("{}: {}: {}{}; {:.1f} s", in_words(c), mark_of(a), told(d), line_in_words(c, a), a.seconds);
   return a;
@@ -224,8 +239,9 @@ void print_counts(const std::vector<Answer>& answers) {
     count("a wrong one among later causes", lacking, [](const Answer& a) { return a.wrong_later; });
     count("helps", lacking, says(DiagnosisVerdict::kHelps));
     count("  of it with the truth among what was added", lacking, [](const Answer& a) { return a.helped; });
-    count("with its number per turn (levels: 85 %)", lacking, [](const Answer& a) { return a.with_number; });
-    count("  and its amplitude in the interval (93 %)", lacking,
+    count("with its number per turn (levels: 85 %), or spring (belts: 90 %)", lacking,
+          [](const Answer& a) { return a.with_number; });
+    count("  and its amplitude or frequency in the interval", lacking,
           [](const Answer& a) { return a.in_interval; });
     count("denied (levels: never)", lacking, [](const Answer& a) { return a.denied; });
     count("unknown", lacking, says(DiagnosisVerdict::kUnknown));
@@ -246,6 +262,7 @@ void print_counts(const std::vector<Answer>& answers) {
 }
 
 test::LoopCase case_of(const Order& order, std::uint64_t seed) {
+  if (order.driven == Driven::kBelt) return test::belt_case(seed);
   const std::vector<std::string>& effects = test::loop_effects(order.driven);
   const std::string& effect = order.effect.empty() ? effects[seed % effects.size()] : order.effect;
   return order.driven == Driven::kLevels ? test::level_case(effect, seed)
@@ -257,6 +274,7 @@ void write_cases(const Order& order) {
     const test::LoopCase c = case_of(order, seed);
     write_csv(fmt::format("{}/{}_train.csv", order.folder, seed), c.train);
     write_csv(fmt::format("{}/{}_held_out.csv", order.folder, seed), c.held_out);
+    fmt::print("{}\n", in_words(c));
   }
 }
 

@@ -132,6 +132,48 @@ bool acts_before_the_current(const std::string& effect) {
   return effect == "input_delay" || effect == "input_dead_zone" || effect == "torque_saturation";
 }
 
+constexpr double kFewestShown = 0.1;   ///< of the held-out torque, by what is looked for
+constexpr double kMostAtLimit = 0.02;  ///< of the samples: a loop that is stable reaches it now and then
+
+/// The band of the torque balance of a drive as it is.
+double band_of(const Bench& b) {
+  const torque_view::StampedTrace traces[] = {
+      torque_view::stamped(recorded(b, b.train).recording.motor_trace(), true)};
+  return torque_view::choose_band(traces, {}, {}).hz;
+}
+
+/// Hangs a part of the inertia on a spring. @returns its frequency and share, in words
+std::string hang_on_spring(std::mt19937_64& g, Bench& b) {
+  const double hz = log_uniform(g, 0.3, 1.0) * band_of(b);
+  BlindDrive& d = b.c.drive;
+  const double whole = d.motor_inertia, damping = d.motor_damping, share = uniform(g, 0.3, 0.75);
+  const double omega = 2.0 * kPi * hz, ratio = log_uniform(g, 0.02, 0.2);
+  d.load = BlindLoad::kFree, d.contact = ContactKind::kBonded, d.gap = 0.0;
+  d.motor_inertia = (1.0 - share) * whole, d.load_inertia = share * whole;
+  d.motor_damping = d.load_damping = 0.5 * damping;
+  d.contact_stiffness = d.load_inertia * omega * omega;
+  d.contact_damping = 2.0 * ratio * d.load_inertia * omega;
+  const double level = damping * b.train.motion.speed;  // viscous friction at the top speed
+  d.load_coulomb = uniform(g, 0.0, 1.0) < 0.5 ? uniform(g, 0.2, 1.0) * level : 0.0;
+  if (uniform(g, 0.0, 1.0) < 0.5) d.effects.motor.friction.level_nm = uniform(g, 0.2, 1.0) * level;
+  return fmt::format("{:.0f} % of the inertia behind {:.1f} Hz, damping {:.2g}, friction {:.2g} + {:.2g} N m",
+                     100.0 * share, hz, ratio, d.effects.motor.friction.level_nm, d.load_coulomb);
+}
+
+bool is_shaken(const Bench& b) {
+  const std::vector<double> u = recorded(b, b.train).recording.u;
+  const auto at_limit =
+      std::count_if(u.begin(), u.end(), [&](double v) { return std::abs(v) > 0.999 * b.controller.limit; });
+  return static_cast<double>(at_limit) > kMostAtLimit * static_cast<double>(u.size());
+}
+
+/// What a spring leaves of the held-out torque, beside friction at either body that is told.
+double missing_beside_friction(const Bench& b) {
+  Bench smooth = b;
+  smooth.c.drive.load_coulomb = smooth.c.drive.effects.motor.friction.level_nm = 0.0;
+  return missing_share(smooth);
+}
+
 }  // namespace
 
 const std::vector<std::string>& loop_effects(Driven driven) {
@@ -169,6 +211,26 @@ LoopCase loop_case(Driven driven, const std::string& effect, std::uint64_t seed,
   return result;
 }
 
+LoopCase belt_case(std::uint64_t seed) {
+  std::mt19937_64 g = random_stream(seed, "belt study");
+  LoopCase result;
+  result.seed = seed, result.effect = "load_resonance";
+  Bench b;
+  std::string spring;
+  for (; result.redrawn < kMostDraws; ++result.redrawn) {
+    b = drawn_bench(g, Driven::kLoop, seed);
+    result.sheet = sheet_of(g, b.c.drive);
+    spring = hang_on_spring(g, b);
+    if (!is_shaken(b) && missing_beside_friction(b) > kFewestShown) break;
+  }
+  result.missing = missing_share(b);
+  result.set_up = in_words(b) + ", " + spring;
+  result.drive = b.c.drive;
+  result.spring_hz = std::sqrt(b.c.drive.contact_stiffness / b.c.drive.load_inertia) / (2.0 * kPi);
+  result.train = recorded(b, b.train).recording, result.held_out = recorded(b, b.held_out).recording;
+  return result;
+}
+
 LoopCase level_case(const std::string& effect, std::uint64_t seed) {
   std::mt19937_64 g = random_stream(seed, "speed levels study");
   LoopCase result;
@@ -180,8 +242,7 @@ LoopCase level_case(const std::string& effect, std::uint64_t seed) {
     b.c.drive.effects.motor.friction.level_nm = share * b.c.drive.motor_damping * b.train.motion.speed;
   }
   const Recording bare = recorded(b, b.train).recording;
-  const torque_view::StampedTrace traces[] = {torque_view::stamped(bare.motor_trace(), true)};
-  const double band = torque_view::choose_band(traces, {}, {}, {}).hz;
+  const double band = band_of(b);
   const double hz = log_uniform(g, 0.3, 3.0) * band;
   result.periods = std::max(2.0, std::round(2.0 * kPi * hz / b.train.motion.speed));
   const double input = rms(bare.u) * b.c.drive.torque_constant;
