@@ -45,8 +45,7 @@ Observation told(const LoopMean& mean) {
 Observation answered(const DriveReport& r) {
   if (!r.answer) return untold("no answer");
   const Answer& a = *r.answer;
-  Observation o =
-      std::isfinite(a.gap) ? told(a.gap, kNaN, a.ci95) : at_most(a.gap_at_most, "no gap is given");
+  Observation o = std::isfinite(a.gap) ? told(a.gap, kNaN, a.ci95) : at_most(a.gap_at_most, "not known");
   o.trust = to_string(a.trust);
   return o;
 }

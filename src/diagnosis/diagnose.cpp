@@ -291,8 +291,8 @@ Diagnosis diagnose(std::span<const MotorTrace> train, std::span<const MotorTrace
                     study.effort.most_steps_of_work));
   if (held_out.empty())
     diagnosis.warnings.push_back(
-        "no recording is held out: the last third of each file was, which tests the model on the same "
-        "kind of excitation only: another one may name other effects, or in another order.");
+        "judged on the last third of each file, which was not fitted, as no second recording is given (held_out): "
+        "that is the same kind of excitation, and another one may name other effects, or in another order.");
   if (!study.judge_nothing.empty())
     diagnosis.warnings.push_back(
         fmt::format("too short for a last third that could judge, and therefore fitted whole: {}.",

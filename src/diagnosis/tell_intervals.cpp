@@ -187,10 +187,10 @@ void warn_of_disagreements(const Study& study, const FittedModel& fitted, Diagno
   for (const Disagreement& it : fitted.disagreements)
     numbers.push_back(words_of(it, fitted.model, study.options.coordinates));
   if (numbers.empty()) return;
-  d.warnings.push_back(
-      fmt::format("the free run and the {} alone disagree on {}: the model has the former values, and their "
-                  "intervals hold both.",
-                  study.options.coordinates.torque_word(), fmt::join(numbers, ", ")));
+  d.warnings.push_back(fmt::format(
+      "fitted to follow the motion and fitted to balance the {} alone, the model differs in {}: it has the "
+      "former values, and the intervals in the report hold both.",
+      study.options.coordinates.torque_word(), fmt::join(numbers, ", ")));
 }
 
 bool has_estimates(const ReferenceModel& model) {

@@ -73,34 +73,40 @@ Remark not_explained(double floors, double observer_hz) {
   return {
       "not_explained",
       "the model does not explain the recordings: its prediction error is {:.3g} times the encoder floor. "
-      "Values are those of an observer at {:.3g} Hz; intervals hold their scatter over windows, gains and "
-      "parts of the recordings, not what the missing physics may bias.",
+      "So its numbers were fitted while the encoder corrects it (observer at {:.3g} Hz), not in a free run; "
+      "their intervals hold the scatter over windows, gains and parts of the recordings, not the bias by what "
+      "is missing.",
       {floors, observer_hz}};
 }
 Remark leaves_some(double unexplained_percent, double observer_hz) {
   return {
       "leaves_some",
-      "{:.2g} % of what the [torque] does to the motion is left unexplained: values are those of an observer at "
-      "{:.3g} Hz; intervals hold their scatter over windows, gains and parts of the recordings, not what the "
-      "missing physics may bias.",
+      "the model leaves {:.2g} % of what the [torque] does to the motion unexplained, so its numbers were fitted "
+      "while the encoder corrects it (observer at {:.3g} Hz), not in a free run; their intervals hold the scatter "
+      "over windows, gains and parts of the recordings, not the bias by what is missing.",
       {unexplained_percent, observer_hz}};
 }
 Remark free_run_departs(double observer_hz) {
-  return {"free_run_departs",
-          "the free run departs from the recordings although the predictions do not: values are those of an "
-          "observer at {:.3g} Hz.",
-          {observer_hz}};
+  return {
+      "free_run_departs",
+      "simulated on its own the model drifts off the recordings, though from row to row it predicts well: its "
+      "numbers were fitted while the encoder corrects it slowly (observer at {:.3g} Hz), and hold less for what "
+      "is slow.",
+      {observer_hz}};
 }
 Remark not_random(double lag1, double quantiser) {
-  return {"not_random",
-          "the residual is within the encoder's size but not random (lag-1 autocorrelation {:.2f}, the "
-          "quantiser explains {:.2f}): something small is missing or another minimum is better, and the "
-          "intervals assume neither.",
-          {lag1, quantiser}};
+  return {
+      "not_random",
+      "what the model leaves is no larger than the encoder's step but has a pattern (lag-1 autocorrelation "
+      "{:.2f}, rounding explains {:.2f}): something small is missing or another minimum is better, and the "
+      "fit's intervals are too narrow for either.",
+      {lag1, quantiser}};
 }
 Remark input_timing(const InputTiming& timing) {
   const Doubt doubt = mistimed(timing);
-  return {"input_timing", "{}: {}; the intervals hold what that may move.", {doubt.found, doubt.advice}};
+  return {"input_timing",
+          "{}: {}; the intervals are widened by what that may move.",
+          {doubt.found, doubt.advice}};
 }
 Remark worse_than_still(double ratio) {
   return {"worse_than_still",
@@ -117,8 +123,12 @@ Remark impossible_start(const std::string& key, double start, double begun, cons
 }
 
 Remark at_bound(const std::string& key, double value, const std::string& unit) {
-  if (unit == "-") return {"at_bound", "{} ended at its bound {:.4g}.", {key, value}};
-  return {"at_bound", "{} ended at its bound {:.4g} {}.", {key, value, RemarkUnit{unit}}};
+  if (unit == "-")
+    return {
+        "at_bound", "{} ended at the limit of its search, {:.4g}, which is no measured value.", {key, value}};
+  return {"at_bound",
+          "{} ended at the limit of its search, {:.4g} {}, which is no measured value.",
+          {key, value, RemarkUnit{unit}}};
 }
 Remark no_trace(const std::string& key) {
   return {"no_trace", "{} leaves no trace in the recordings; it needs {}.", {key, excitation_for(key)}};
@@ -175,8 +185,8 @@ Remark as_well_without_gap(double ratio) {
 Remark gap_bears_little(double ratio, double floors) {
   return {
       "gap_bears_little",
-      "The model misses the recording by {:.3g} times the encoder's noise, and with its gap held closed by "
-      "{:.3g} times that: what it lacks may pose as the gap.",
+      "The model misses the recording by {:.3g} times the encoder's noise, and without a gap by only {:.3g} times "
+      "as much: what it lacks may pose as the gap.",
       {floors, ratio}};
 }
 Remark gap_differs() {
@@ -190,7 +200,7 @@ Remark odd_coupling(const std::string& key, double value, const std::string& uni
       {key, value, RemarkUnit{unit}}};
 }
 Remark not_settled() { return {"not_settled", "The iterations ran out before the cost settled."}; }
-Remark gap_at_bound() { return {"gap_at_bound", "The gap ended at its bound."}; }
+Remark gap_at_bound() { return {"gap_at_bound", "The gap ended at the limit of its search."}; }
 Remark gap_not_determined() { return {"gap_not_determined", "The recording does not determine the gap."}; }
 Remark parts_disagree() {
   return {

@@ -196,8 +196,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& folders) {
 std::string changes_headline(const DriveChanges& all) {
   if (all.lead < 0 && differs_in_structure(all)) return structure_text(all);
   if (all.compared == 0)
-    return "Nothing to compare: no quantity is given both in " + all.reports.front() +
-           " and in another report";
+    return "Nothing to compare: " + all.reports.front() + " tells no quantity that another report tells, too";
   if (const QuantityCourse* lead = leading_course(all)) return "Changed: " + course_sentence(all, *lead);
   if (!all.courses.empty()) return "No change is seen over these reports";
   if (!all.odd.empty()) return odd_sentence(all, all.odd.front());

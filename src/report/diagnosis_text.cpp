@@ -39,9 +39,12 @@ std::string refitted_table(const DiagnosisResult& r) {
   return fmt::format(
       "\n## Numbers of your model\n\nEstimated numbers whose interval leaves out what the configuration "
       "starts at, where three digits show that: a number that the recordings contradict, or no more than a "
-      "first guess. The intervals hold for the model {}; `fitted.yaml` has the fitted ones.\n\n"
+      "first guess. The intervals hold for the model {}; {}.\n\n"
       "| number | the configuration starts at | fitted | 95 % |\n|---|---|---|---|\n{}",
-      added(r) ? with_added(r) : std::string("as it is"), rows);
+      added(r) ? with_added(r) : std::string("as it is"),
+      r.diagnosis.loop ? "`fitted.yaml` has those of the closed loop, see below"
+                       : "`fitted.yaml` has the fitted ones",
+      rows);
 }
 
 /// The stored name of a measure in words.

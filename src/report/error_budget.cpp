@@ -209,7 +209,7 @@ std::string budget_table(const DiagnosisResult& r) {
         "\nOf what repeats with the position, period and amplitude are those of what was fitted. An encoder "
         "that counts from where it was switched on does not keep the phase: where other recordings judge, it "
         "is refitted in each of them.\n";
-  if (!b.uncounted.empty()) {
+  if (!b.uncounted.empty() && !r.diagnosis.loop) {  // a loop that was fitted instead has its own
     std::vector<std::string> names;
     for (const std::string& effect : b.uncounted) names.push_back(readable(effect));
     text += fmt::format("\n`fitted.yaml` has {}, too, which no line of this table counts.\n",

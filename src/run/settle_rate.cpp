@@ -48,8 +48,8 @@ Configuration with_settled_rate(const Configuration& given, const Progress& prog
   if (c.recording->reading.controller) c.recording->reading.controller->rate = c.controller->fixed.rate;
   if (prefers)
     said.push_back(fmt::format(
-        "the controller is taken to act between the rows, at {:g} Hz: one that acts at the rows alone leaves "
-        "{:.0f} % more of the motion; controller: rate: says what it is, where that is known.",
+        "controller: rate: is not given: for this estimate the controller's loop is taken to run at {:g} Hz, faster "
+        "than the log; at the log's own rate the model's error is {:.0f} % larger.",
         kBetweenRows, 100.0 * (rows / between - 1.0)));
   return c;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/text.h"
 #include "gapscope/reference/fit.h"
@@ -252,31 +253,29 @@ bool may_have_gap(const Findings& f) {
          f.model_free->quantity == GapQuantity::kGap;
 }
 
-/// What to do about a reference that is not good, by the code of its reason.
-const char* remedy(const FitSummary& fit) {
-  static const std::map<std::string, const char*> all = {{"leaves_unexplained", "next.diagnose.lacks"},
-                                                         {"above_floor", "next.diagnose.lacks"},
-                                                         {"residual_patterned", "next.diagnose.lacks"},
-                                                         {"parts_disagree", "next.diagnose.lacks"},
-                                                         {"gap_bears_little", "next.diagnose.lacks"},
-                                                         {"odd_coupling", "next.diagnose.lacks"},
-                                                         {"as_well_without_gap", "next.without_gap"},
-                                                         {"gap_differs", "next.without_gap"},
-                                                         {"gap_at_bound", "next.without_gap"},
-                                                         {"gap_not_determined", "next.close_contact"},
-                                                         {"not_settled", "next.start_nearer.iterations"},
-                                                         {"failed", "next.start_nearer.unit"}};
-  const auto found = all.find(fit.why.code());
-  return found == all.end() ? "" : found->second;
+/// What to do about a fit that is not good, or about no reading without a model, by the code of the reason.
+const char* remedy(const std::string& reason) {
+  static const std::map<const char*, std::set<std::string>> all = {
+      {"next.diagnose.lacks",
+       {"leaves_unexplained", "above_floor", "residual_patterned", "parts_disagree", "gap_bears_little",
+        "odd_coupling"}},
+      {"next.without_gap", {"as_well_without_gap", "gap_differs", "gap_at_bound"}},
+      {"next.close_contact", {"gap_not_determined"}},
+      {"next.start_nearer.iterations", {"not_settled"}},
+      {"next.start_nearer.unit", {"failed"}},
+      {"next.unload", {"held_closed"}},
+      {"next.larger_ramps", {"locked_without_loop"}},
+      {"next.faster", {"too_slow", "only_large_gaps", "no_impact_stands_out"}}};
+  for (const auto& [step, reasons] : all)
+    if (reasons.contains(reason)) return step;
+  return "";
 }
 
 /// What would give a reading without a model where the detector was inconclusive and saw no loop.
 Statement step_to_a_reading(const GapEstimate& g) {
   if (g.reason.has_code("bounds_to_try") || g.reason.has_code("bound_to_try")) return {"next.bound_as_told"};
   if (g.reason.has_code("auto_reads")) return {"next.bound_auto"};
-  if (g.reason.code() == "held_closed") return {"next.unload"};
-  for (const char* slow : {"too_slow", "only_large_gaps", "no_impact_stands_out"})
-    if (g.reason.code() == slow) return {"next.faster"};
+  if (const std::string step = remedy(g.reason.code()); !step.empty()) return {step};
   const bool bank = g.reason.has_code("nothing_reads");
   const Remark reason = bank ? g.reason.behind("nothing_reads") : g.reason;
   const bool advises = reason.code() == "gap_uncertain" || reason.code() == "few_passages";
@@ -330,7 +329,7 @@ Told steps(const Findings& f) {
   const bool loop = f.model_free != nullptr && f.model_free->lost_motion.read();
   if (loop) next.push_back(reading);
   if (f.reference != nullptr && !none_by_both(f)) {
-    const std::string step = remedy(*f.reference);
+    const std::string step = remedy(f.reference->why.code());
     next.push_back({step == "next.without_gap" && may_have_gap(f) ? "next.diagnose.lacks" : step});
   }
   if (!loop) next.push_back(reading);

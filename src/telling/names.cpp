@@ -103,7 +103,7 @@ std::string pushing(const NamedValue& n, const std::string& unit) {
 
 std::string without_interval(const AddedEffect& a, const NamedValue& n) {
   if (std::isfinite(n.ci95.low)) return "";
-  if (contains(a.at_bound, n.key)) return ", at the bound of its search";
+  if (contains(a.at_bound, n.key)) return ", where its search ended, no measured value";
   return a.established ? "" : ", an amount that the recordings do not determine";
 }
 

@@ -112,6 +112,8 @@ constexpr Wording kSteps[] = {
     {"next.free_motion",
      "For a reading without a model, record seven periods or more of a triangle or a sine with a dwell at "
      "the reversals, the output free."},
+    {"next.larger_ramps",
+     "Leave the output held: slow ramps to and fro, three or more, to a larger torque than in this recording."},
     {"next.smaller_ramps",
      "Add ramps to half the smallest torque: the gap is at most the lost motion there, and wind-up shrinks "
      "with the torque."},

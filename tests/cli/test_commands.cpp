@@ -170,7 +170,7 @@ model:
 )");
   const auto fit = place.run("fit r.yaml -o report");
   ASSERT_EQ(fit.status, 0) << fit.err;
-  EXPECT_THAT(fit.err, HasSubstr("motor_damping ended at its bound 20 N s/m."));
+  EXPECT_THAT(fit.err, HasSubstr("motor_damping ended at the limit of its search, 20 N s/m"));
   EXPECT_THAT(text_of(place.folder() / "report/report.md"), Not(HasSubstr("N m")));
 }
 

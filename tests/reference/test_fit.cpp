@@ -256,7 +256,7 @@ TEST(Fit, AParameterThatRunsIntoItsBoundIsNamed) {
   model.parameters[kGap].low = 0.001, model.parameters[kGap].high = 0.017;
   const FitSummary summary = fit_one(run.recording(), model);
   EXPECT_TRUE(summary.find("gap")->at_bound);
-  EXPECT_NE(summary.full_report().find("gap ended at its bound"), std::string::npos);
+  EXPECT_NE(summary.full_report().find("gap ended at the limit of its search"), std::string::npos);
 }
 
 TEST(Fit, AWrongSignOfTheInputIsSuspectedBeforeAnythingElse) {
