@@ -260,6 +260,8 @@ constexpr Law kLaws[] = {
      step_times, inertia_step, inertia_step_values, 1},
     {"resonance", "load_resonance", nullptr, 1, Kind::kMotion, true, false, Sign::kShareOfInertia, resonances,
      resonance, resonance_values, 1},
+    {"resonance_beside_friction", "load_resonance", kCoulomb, 1, Kind::kMotion, true, false,
+     Sign::kShareOfInertia, resonances, resonance, resonance_values, 1},
     {"spring_to_ground", "shaft_compliance", nullptr, 2, Kind::kMotion, false, false, Sign::kPositive,
      only_held, spring, nullptr, -1},
     {"contact_curve", "", nullptr, kContactKnots, Kind::kMotion, false, false, Sign::kAny, only_known,

@@ -22,6 +22,9 @@ bool is_open(const Bench& bench, const Model& model, const Law& l) {
       std::find(bench.closed.begin(), bench.closed.end(), l.effect) != bench.closed.end())
     return false;
   if (l.harmonic > 0 && lacks_simpler(model, l)) return false;
+  // One spring; with friction that it brings along as long as the model has none.
+  if (l.sign == Sign::kShareOfInertia && (spring_of(model) || (l.simpler && !lacks_simpler(model, l))))
+    return false;
   return l.name != std::string_view("inertia") &&
          (find_term(model, l.name) == nullptr || l.shapes == line_grid);
 }

@@ -6,18 +6,19 @@
 namespace gapscope::internal::torque_view {
 namespace {
 
-constexpr double kSameColumn = 1e-9;     ///< of a square: what is left of it is rounding
-constexpr std::size_t kLinePeriods = 9;  ///< at which a line is looked at, evenly in its logarithm
+constexpr double kSameColumn = 1e-9;  ///< of a square: what is left of it is rounding
+constexpr std::size_t kFewShapes =
+    9;  ///< at which a law of a long grid is looked at, evenly in its logarithm
 
 /// Some shapes of a long grid, all of a short one.
 std::vector<double> few_shapes(const Law& law, const Scales& scales) {
   const std::vector<double> grid = law.shapes(scales);
-  if (law.shapes != line_grid || grid.size() <= kLinePeriods) return grid;
+  if (grid.size() <= kFewShapes) return grid;
   std::vector<double> few;
   const double ratio = grid.back() / grid.front();
-  for (std::size_t i = 0; i < kLinePeriods; ++i) {
+  for (std::size_t i = 0; i < kFewShapes; ++i) {
     const double at =
-        grid.front() * std::pow(ratio, static_cast<double>(i) / static_cast<double>(kLinePeriods - 1));
+        grid.front() * std::pow(ratio, static_cast<double>(i) / static_cast<double>(kFewShapes - 1));
     const auto next = std::lower_bound(grid.begin(), grid.end(), at);
     few.push_back(next == grid.end() ? grid.back() : *next);
   }
