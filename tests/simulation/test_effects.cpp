@@ -43,7 +43,8 @@ std::vector<double> moderate(const EffectEntry& e, const ScaleContext& scale) {
   std::vector<double> values;
   for (std::size_t i = 0; i < e.parameters.size(); ++i) {
     const EffectParameterSpec& p = e.parameters[i];
-    double v = e.starts.empty() ? p.low + 0.1 * (p.high - p.low) : e.starts.front()[i];
+    const bool begins = !e.starts.empty() && !(p.held && e.starts.front()[i] == p.absent);
+    double v = begins ? e.starts.front()[i] : p.low + 0.1 * (p.high - p.low);
     if (e.starts.empty() && p.low < 0.0 && p.scale != Scale::kOne) v = kSmall / static_cast<double>(1 + i);
     if (p.low == p.high) v = kReached;
     if (p.scale == Scale::kPerTravel) v = kCycles;

@@ -51,13 +51,15 @@ struct LoadResonance {
   /// it has its level.
   template <class T>
   static T friction(const PlantModel<T>& plant, const T& speed, const T* p) {
-    if (value_of(p[4]) <= 0.0 || value_of(p[0]) <= 0.0) return T(0.0);
+    if (value_of(p[0]) <= 0.0) return T(0.0);
     const T most = p[4] / (p[0] * carried(plant)), slow = kTight * 2.0 * kPi * p[1] * speed;
-    return slow > most ? most : slow < -most ? T(-most) : slow;
+    if (value_of(slow) > value_of(most)) return most;
+    if (value_of(slow) < -value_of(most)) return -most;
+    return value_of(most) > 0.0 ? slow : T(0.0);
   }
   template <class T>
   static T drag(const PlantModel<T>& plant, const T* p) {
-    return value_of(p[3]) <= 0.0 || value_of(p[0]) <= 0.0 ? T(0.0) : T(p[3] / (p[0] * carried(plant)));
+    return value_of(p[0]) <= 0.0 ? T(0.0) : T(p[3] / (p[0] * carried(plant)));
   }
 
   template <class T>
@@ -78,9 +80,12 @@ struct LoadResonance {
     const T base[] = {3.0 * way - (2.0 * from.w + to.w) * h, (from.w + to.w) * h - 2.0 * way};
     const T angle = 2.0 * kPi * p[1] * h, pull = angle * angle;
     const T own = drag(at.plant, p) * h, damp = 2.0 * p[2] * angle + own;
+    // Dry friction over the step is that of the speed in the middle of it.
+    const T begun = pull * z + 2.0 * p[2] * angle * slope + own * h * memory[1];
+    const T turned = begun + friction(at.plant, memory[1], p) * h * h;
+    const T rub = friction(at.plant, T(memory[1] - 0.5 * turned / h), p);
     // Its friction, of the carrier's speed and of the dry level, in powers of the share of the step.
-    const T push[] = {own * from.w * h + friction(at.plant, memory[1], p) * h * h, 2.0 * own * base[0],
-                      3.0 * own * base[1]};
+    const T push[] = {own * from.w * h + rub * h * h, 2.0 * own * base[0], 3.0 * own * base[1]};
     T place = z + slope, speed = slope;
     for (int n = 0; n + 2 <= kOrder; ++n) {
       T next = (pull * z * kOver[n + 1] + damp * slope) * -kOver[n + 2];
