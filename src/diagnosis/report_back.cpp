@@ -285,6 +285,8 @@ TorqueSearch settled_ladder(const Study& whole, TorqueSearch ladder) {
     if (left.added.size() == told.added.size()) return told;
     if (left.added.empty()) return left;
     ladder = std::move(left);
+    ladder.after.fitted.errors.reset();  // of the numbers that went, too
+    ladder.after.fitted.disagreements.clear();
   }
 }
 

@@ -97,8 +97,10 @@ std::optional<std::size_t> rung_of(const view::Budget& budget, const view::Term&
 }
 
 /// Whether the recordings show the simpler law that this one adds to: at one speed they show neither.
+/// Friction beside a spring may be the load's alone.
 bool shows_simpler(const view::Budget& budget, const view::Rung& rung, const view::Law& law) {
   if (law.simpler == nullptr || view::find_term(budget.nominal, law.simpler) != nullptr) return true;
+  if (law.sign == view::Sign::kShareOfInertia) return true;
   const auto is_simpler = [&](const view::Candidate& c) {
     return c.law->name == std::string_view(law.simpler);
   };
