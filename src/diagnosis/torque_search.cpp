@@ -177,16 +177,18 @@ void tell_delays_apart(const Study& study, const ScoredModel& nominal, TorqueSea
     if (at == delayed.effects.end()) continue;
     std::vector<std::pair<const EffectEntry*, ScoredModel>> tried = {{a.group.front(), search.after}};
     for (const EffectEntry* entry : a.group) {
-      if (!acts_as_delay(*entry)) continue;
+      const bool is_there =
+          std::ranges::find(delayed.effects, entry, &ModelEffect::entry) != delayed.effects.end();
+      if (!acts_as_delay(*entry) || is_there) continue;
       ReferenceModel lagging = delayed;
       lagging.effects[static_cast<std::size_t>(at - delayed.effects.begin())] =
           searched_effect(*entry, {at->parameters[0].value}, study.turns);
       tried.emplace_back(entry, refitted_from(study, lagging, nominal));
     }
     std::ranges::stable_sort(tried, {}, [](const auto& t) { return t.second.score; });
-    if (!(tried.front().second.score < search.after.score - kRule.tells_apart)) continue;
     for (const auto& [entry, model] : tried)
       if (!(model.score < tried.front().second.score + kRule.tells_apart)) std::erase(a.group, entry);
+    if (a.group.front() == at->entry) continue;
     std::ranges::stable_partition(a.group, [&](const EffectEntry* e) { return e == tried.front().first; });
     search.after = tried.front().second;
   }
@@ -213,6 +215,8 @@ std::string rival_of(const view::Rung& rung) {
 }
 
 bool is_of(const view::Share& share, const view::Term& term) {
+  if (share.law->sign == view::Sign::kShareOfInertia)
+    return share.law == term.law;                                               // its shape is asked again
   return share.law == term.law && !(std::abs(share.shape - term.shape) > 0.0);  // NaN: a law without a shape
 }
 

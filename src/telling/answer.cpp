@@ -118,7 +118,8 @@ Said as_printed(const Findings& f, const FittedParameter* gap) {
 Said read(const Findings& f) {
   const FittedParameter* gap = told_gap(f);
   if (f.model_free->method == GapMethod::kLiteral) return as_printed(f, gap);
-  if (gap != nullptr && f.agree && width(gap->ci95) < gap->value)  // a wider one agrees with anything
+  // A wide interval agrees with anything, and contradicts as well as a narrow one.
+  if (gap != nullptr && f.agree && (!*f.agree || width(gap->ci95) < gap->value))
     return *f.agree ? agreed(f, *gap) : contradicted(f, *gap);
   const bool rejected = f.reference != nullptr && f.reference->rejected();
   Said a = from_model_free(f, rejected ? AnswerTrust::kLimited : trust_in(*f.model_free));

@@ -106,7 +106,7 @@ FrequencyBand choose_band(std::span<const StampedTrace> traces, const Scales& kn
   for (std::size_t i = 0; i < hz.size(); ++i)
     if (band.octaves[i].noise <= options.most_noise) quiet = i;  // at one speed those below may be empty
   band.octaves.clear();
-  add_spring(rows[quiet], probe, known, options);
+  if (!band.free_constant && hz.size() > 1) add_spring(rows[quiet], probe, known, options);
   read_octaves(band, rows, hz, traces, fitted(rows[quiet], probe));
 
   double power = 0.0, weighted = 0.0;  // of the octaves below that have a say

@@ -59,7 +59,8 @@ ForetoldRung::ForetoldRung(const Contest& contest, const Signature& law, const E
   after_ = contest.blocks.squares(judge_left);
   before_ = Parabola(contest.blocks, judge_left, law.judge * unit);
   for (const Signature& s : contest.signatures)
-    if (s.law != law.law) rivals_.push_back(rival_of(contest, law, s, unit, fit_left, judge_left));
+    if (!is_same_torque(*s.law, *law.law))
+      rivals_.push_back(rival_of(contest, law, s, unit, fit_left, judge_left));
 }
 
 /// Every rival at the shape that its fit prefers, best first.

@@ -87,7 +87,7 @@ bool ladder_adds(SplitRecordings data, const Budget& budget, const Law& law, con
   data.threads = 1;
   const Budget with = error_budget(data, options);
   return std::any_of(with.model.begin() + static_cast<std::ptrdiff_t>(with.nominal.size()), with.model.end(),
-                     [&](const Term& term) { return term.law == &law; });
+                     [&](const Term& term) { return is_same_torque(*term.law, law); });
 }
 
 void correct_by_implants(const SplitRecordings& data, const Budget& budget, std::vector<LeastNamed>& laws,

@@ -103,7 +103,7 @@ void ask_first_again(Bench& bench, Budget& budget, const TorqueViewOptions& opti
                                            budget.model.begin());
   if (carries_another(budget.model, at)) return;
   Rung again = next_rung(bench, fitted(bench.fit, without(budget.model, at)), options);
-  if (!again.named || again.choice().law != law) return;
+  if (!again.named || !is_same_torque(*again.choice().law, *law)) return;
   first.named = true;
   first.group = std::move(again.group), first.rival = std::move(again.rival);
   first.margin = again.margin, first.leading = again.leading;

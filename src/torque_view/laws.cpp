@@ -14,8 +14,8 @@ using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
 constexpr double kSameStep = 1e-6;  ///< of a time step: what differs by less is one [-]
 constexpr double kOver = 1e-4;      ///< of a starting swing: the rest of it is nothing [-]
-constexpr double kLeastSwing =
-    0.01;  ///< square of the frequency of a load that hardly swings [of the undamped]
+constexpr double kLeastRate =
+    1e-3;  ///< of a swing at its critical damping, where sine over rate is the time [of the undamped]
 constexpr std::array<double, 7> kKnots = {0.0, 0.02, 0.05, 0.12, 0.25, 0.5, 1.0};  ///< of the top speed [-]
 constexpr int kContactKnots = 16;  ///< of the torque over the travel of a locked output
 constexpr int kHarmonics = 3;      ///< of the free position curve
@@ -118,13 +118,19 @@ void inertia_step(const Samples& s, const Shape& time, Columns g) {
   each(s, g, 0, [&](auto i) { return s.t[i] > time ? s.a[i] : 0.0; });
 }
 
-/// How a load on its spring comes to rest: e^(−decay t) at the frequency damped, undamped at omega.
+/// How a load on its spring comes to rest: e^(−decay t) times cosine and sine, or, where it is too damped to
+/// swing, times their hyperbolic kin.
 struct Swing {
-  double omega, decay, damped;
+  double omega, decay, square;  ///< undamped [rad/s], [1/s], omega² − decay²
   explicit Swing(const Shape& spring)
       : omega(2.0 * kPi * spring.at),
         decay(spring.damping * omega + 0.5 * spring.drag),
-        damped(std::sqrt(std::max(omega * omega - decay * decay, kLeastSwing * omega * omega))) {}
+        square(omega * omega - decay * decay) {}
+  double rate() const { return std::max(std::sqrt(std::abs(square)), kLeastRate * omega); }
+  double cosine(double t) const { return square > 0.0 ? std::cos(rate() * t) : std::cosh(rate() * t); }
+  double sine(double t) const {
+    return (square > 0.0 ? std::sin(rate() * t) : std::sinh(rate() * t)) / rate();
+  }
 };
 
 /// A load behind a spring and a damper, with friction of its own: of its place z against the motor
@@ -143,8 +149,7 @@ void resonance(const Samples& s, const Shape& spring, Columns g) {
     if (i > 0) {
       const double h = s.t[i] - s.t[i - 1], push = 0.5 * (pushes(i - 1) + pushes(i)), place = rest + away;
       if (std::abs(h - last) > kSameStep * h) {
-        e = std::exp(-swing.decay * h), c = std::cos(swing.damped * h),
-        q = std::sin(swing.damped * h) / swing.damped;
+        e = std::exp(-swing.decay * h), c = swing.cosine(h), q = swing.sine(h);
         last = h;
       }
       const auto rate_after = [&](double from) {
@@ -152,7 +157,8 @@ void resonance(const Samples& s, const Shape& spring, Columns g) {
       };
       // Without Coulomb friction the load would move at w + z'; each unit of it takes e q off that.
       const double free = s.w[i] + rate_after(place + push / square);
-      const double most = spring.rub * e * q, share = most > 0.0 ? std::clamp(free / most, -1.0, 1.0) : 0.0;
+      const double most = std::abs(spring.rub * e * q);
+      const double share = most > 0.0 ? std::clamp(free / most, -1.0, 1.0) : 0.0;
       rest = -(push + spring.rub * share) / square;
       away = place - rest;
       const double turned = e * (away * (c + swing.decay * q) + rate * q);
@@ -283,7 +289,8 @@ constexpr Law kLaws[] = {
 int Law::parameters() const {
   const bool given = shapes == no_shape || shapes == motor_turn || shapes == load_turn ||
                      shapes == only_held || harmonic > 0;
-  return columns + (given ? 0 : 1);
+  const int of_spring = sign == Sign::kShareOfInertia ? 3 : 0;  // damping, drag and Coulomb friction
+  return columns + (given ? 0 : 1) + of_spring;
 }
 
 void starting_swing(const Samples& s, const Shape& spring, Eigen::Ref<Eigen::MatrixXd> g) {
@@ -292,9 +299,13 @@ void starting_swing(const Samples& s, const Shape& spring, Eigen::Ref<Eigen::Mat
   for (std::size_t i = 0; i < s.t.size(); ++i) {
     const double past = s.t[i] - s.t.front(), size = std::exp(-swing.decay * past);
     if (size < kOver) return;
-    g(static_cast<Eigen::Index>(i), 0) = size * std::cos(swing.damped * past);
-    g(static_cast<Eigen::Index>(i), 1) = size * std::sin(swing.damped * past);
+    g(static_cast<Eigen::Index>(i), 0) = size * swing.cosine(past);
+    g(static_cast<Eigen::Index>(i), 1) = size * swing.sine(past) * swing.rate();
   }
+}
+
+bool is_same_torque(const Law& a, const Law& b) {
+  return a.fill == b.fill && std::string_view(a.effect) == b.effect;
 }
 
 std::span<const Law> laws() { return kLaws; }

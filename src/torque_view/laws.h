@@ -64,6 +64,10 @@ struct Law {
   int parameters() const;  ///< coefficients and shape
 };
 
+/// Whether two rows are of the same torque: a spring stands in two, by itself and with friction that it
+/// brings along.
+bool is_same_torque(const Law& a, const Law& b);
+
 std::span<const Law> laws();
 const Law& law(std::string_view name);  ///< @throws std::logic_error if there is none
 

@@ -210,9 +210,9 @@ void decide(Bench& bench, Rung& rung, const Model& model, const std::vector<std:
   for (const std::size_t j : group) rung.group.emplace_back(rung.ranking[j].law->name);
   for (std::size_t j = 0; j < rung.ranking.size(); ++j) {
     const Candidate& rival = rung.ranking[j];
-    if (j == rung.chosen || is_free_form(*rival.law) || adds_to(*rival.law, *c.law) ||
-        adds_to(*c.law, *rival.law) || std::find(group.begin(), group.end(), j) != group.end() ||
-        says_more(bench, c, rival, model, options))
+    if (j == rung.chosen || is_free_form(*rival.law) || is_same_torque(*rival.law, *c.law) ||
+        adds_to(*rival.law, *c.law) || adds_to(*c.law, *rival.law) ||
+        std::find(group.begin(), group.end(), j) != group.end() || says_more(bench, c, rival, model, options))
       continue;
     rung.rival = rival.law->name;
     rung.margin = margin_over(c.evidence, rival.evidence);

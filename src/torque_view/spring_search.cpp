@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 #include <ceres/dynamic_numeric_diff_cost_function.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -17,6 +18,7 @@ constexpr double kMuchRub = 0.3;  ///< Coulomb friction of a load to begin with 
 constexpr double kLeastDamping = 0.002;
 constexpr double kMostDamping = 0.7;  ///< ratio of a spring's: beyond it nothing swings [-]
 constexpr double kShapeStep = 1e-3;   ///< of the derivatives of a spring's shape [-]
+constexpr double kLeastScale = 1e-9;  ///< of friction by inertia, in which its steps are measured [SI]
 constexpr int kShapeSteps = 25;
 constexpr double kShapeTolerance = 1e-5;  ///< of what is left, where they end [-]
 
@@ -52,7 +54,8 @@ class SpringSearch {
     BestShape best;
     Eigen::MatrixXd column(rows_.size(), law_.columns);
     for (const double damping : {kLightDamping, kHeavyDamping})
-      for (std::size_t i = 0; i < grid_.size(); i += static_cast<std::size_t>(damping / kLightDamping)) {
+      for (std::size_t i = 0; i < grid_.size();
+           i += static_cast<std::size_t>(std::lround(damping / kLightDamping))) {
         Shape shape = grid_[i];
         shape.damping = damping;
         if (rubs) shape.drag = drag(), shape.rub = kMuchRub * push();
@@ -76,8 +79,9 @@ class SpringSearch {
           projection_.left_after(columns_at(rows_, law_, shape_of(p[0])));
       return true;
     };
-    std::array<double, 4> p = {std::log(from.shape.at), std::log(from.shape.damping), from.shape.drag / drag,
-                               from.shape.rub / rub};
+    std::array<double, 4> p = {std::log(std::clamp(from.shape.at, grid_.front(), grid_.back())),
+                               std::log(std::clamp(from.shape.damping, kLeastDamping, kMostDamping)),
+                               from.shape.drag / drag, from.shape.rub / rub};
     ceres::NumericDiffOptions step;
     step.relative_step_size = kShapeStep;
     auto cost = std::make_unique<ceres::DynamicNumericDiffCostFunction<decltype(left)>>(
@@ -105,9 +109,10 @@ class SpringSearch {
 
  private:
   /// The drive's friction by its inertia: of the speed, and of what the input makes.
-  double drag() const { return std::abs(rows_.viscous / rows_.inertia); }
+  double drag() const { return std::max(std::abs(rows_.viscous / rows_.inertia), kLeastScale); }
   double push() const {
-    return rows_.u.norm() / std::sqrt(static_cast<double>(rows_.size())) / std::abs(rows_.inertia);
+    const double input = rows_.u.norm() / std::sqrt(static_cast<double>(rows_.size()));
+    return std::max(input / std::abs(rows_.inertia), kLeastScale);
   }
 
   BestShape gain_of(const Shape& shape, const Eigen::MatrixXd& columns) {
@@ -133,7 +138,7 @@ BestShape refined_spring(Rows& rows, Projection& projection, const Law& law, con
                          const Shape& from) {
   const std::vector<double> grid = law.shapes(scales);
   SpringSearch search(rows, projection, law, grid);
-  return search.refined(search.at(from));
+  return grid.empty() ? search.at(from) : search.refined(search.at(from));
 }
 
 }  // namespace gapscope::internal::torque_view

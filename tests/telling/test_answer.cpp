@@ -113,6 +113,10 @@ TEST(Answer, AFitWhoseIntervalAgreesWithAnythingIsNotSaidToAgree) {
   const Answer a = of(&g, &wide, true);
   EXPECT_EQ(a.from, AnswerSource::kModelFree);
   EXPECT_FALSE(a.says("gap.reference.agrees"));
+  const FitSummary apart = fitted(FitTrust::kLimited, 0.008, 2.1e-3);
+  const Answer b = of(&g, &apart, false);
+  EXPECT_TRUE(b.says("gap.reference.contradicts"));
+  EXPECT_EQ(b.trust, AnswerTrust::kLimited) << "a wide interval contradicts as well as a narrow one";
 }
 
 TEST(Answer, OfTwoThatContradictEachOtherIsLimitedAndNamesBoth) {

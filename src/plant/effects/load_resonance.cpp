@@ -124,9 +124,10 @@ struct LoadResonance {
 
   /// Both inertias against each other swing faster than the further one on a held load.
   template <class T>
-  static double rate(const EffectPoint<T>&, const T* p) {
+  static double rate(const EffectPoint<T>& at, const T* p) {
     const double dry = value_of(p[4]) > 0.0 ? kTight : 0.0;
-    return 2.0 * kPi * value_of(p[1]) * (std::sqrt(1.0 + value_of(p[0])) + 2.0 * value_of(p[2]) + dry);
+    return 2.0 * kPi * value_of(p[1]) * (std::sqrt(1.0 + value_of(p[0])) + 2.0 * value_of(p[2]) + dry) +
+           value_of(drag(at.plant, p));
   }
 };
 
