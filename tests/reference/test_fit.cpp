@@ -204,7 +204,8 @@ TEST(Fit, ASmallMismatchIsSeenInTheRandomnessOfTheResidualAndAQuantisersPatternI
     estimate(model, kGap, 0.02);
     const FitSummary summary = fit_one(rig.recording(), model);
     EXPECT_LT(summary.rmse, 3.0 * summary.floor);
-    EXPECT_EQ(summary.full_report().find("has a pattern") == std::string::npos, right) << summary.full_report();
+    EXPECT_EQ(summary.full_report().find("has a pattern") == std::string::npos, right)
+        << summary.full_report();
   }
   rig.sensor = independent_plant::BlindSensor::with_bits(12);  // correlated by its own coarseness
   rig.options.rate = 5000.0;
