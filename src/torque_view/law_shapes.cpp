@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kFewestCycles = 2.0;  ///< of a line over the travel: fewer are a slope or an offset
 
-constexpr double kSpringStep = 1.06;  ///< of frequencies: two dampings of the lightest that is looked for [-]
+constexpr double kSpringStep =
+    1.06;  ///< ratio of frequencies: a spring is looked for from a damping of 0.03 on [-]
 
 std::vector<double> geometric(double from, double to, int count) {
   std::vector<double> values;

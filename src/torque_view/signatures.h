@@ -27,7 +27,7 @@ class Below {
   Below(Bench& bench, const Model& model);
 
   Signature signature(const Law& law, const Shape& shape);
-  /// Every law that a rung could add, at the shapes of its grid; a line at a few of its periods.
+  /// Every law that a rung could add, at the shapes of its grid, at a few of a long one.
   std::vector<Signature> all_signatures(const TorqueViewOptions& options);
 
   const Eigen::VectorXd& fit_left() const { return fit_left_; }      ///< of the fitted rows

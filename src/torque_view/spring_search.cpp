@@ -12,13 +12,12 @@ namespace gapscope::internal::torque_view {
 namespace {
 
 constexpr double kLightDamping = 0.03, kHeavyDamping = 0.15;  ///< that a spring is looked for with [-]
-constexpr double kWorthRefining =
-    0.03;                         ///< gain on the grid, whose steps miss the best by less than half of it [-]
-constexpr double kMuchRub = 0.3;  ///< Coulomb friction of a load to begin with [rms of the input]
-constexpr double kLeastDamping = 0.002;
-constexpr double kMostDamping = 0.7;  ///< ratio of a spring's: beyond it nothing swings [-]
-constexpr double kShapeStep = 1e-3;   ///< of the derivatives of a spring's shape [-]
-constexpr double kLeastScale = 1e-9;  ///< of friction by inertia, in which its steps are measured [SI]
+constexpr double kWorthRefining = 0.03;  ///< gain on the grid from which it is refined [-]
+constexpr double kMuchRub = 0.3;         ///< Coulomb friction of a load to begin with [rms of the input]
+constexpr double kLeastDamping = 0.002;  ///< ratio of a spring's: below it a swing outlasts a recording [-]
+constexpr double kMostDamping = 0.7;     ///< ratio of a spring's: beyond it nothing swings [-]
+constexpr double kShapeStep = 1e-3;      ///< of the derivatives of a spring's shape [-]
+constexpr double kLeastScale = 1e-9;     ///< of friction by inertia, in which its steps are measured [SI]
 constexpr int kShapeSteps = 25;
 constexpr double kShapeTolerance = 1e-5;  ///< of what is left, where they end [-]
 
